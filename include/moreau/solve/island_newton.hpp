@@ -125,44 +125,17 @@ class IslandNewton {
   /// @returns the largest error of the velocity of a body, relative to the largest change of such a
   ///          velocity by the impulses of the island: estimate of a root mean square over the mass [-]
   double solve(double epsilon, const Precision& precision) {
-    const double tolerance = precision.tolerance, least = precision.least_epsilon;
     step_.analyse();
     step_.begin();
     is_better_ = false;
     first_ = 0;
-    // Of the mode that holds the heaviest body by the lightest, through all others.
-    const double bodies = double(step_.points().bodies());
-    const double softest = 1 + least * mass_ratio() * bodies * bodies;
-    double error = 0, before = 0, solved = std::numeric_limits<double>::infinity();
-    while (step_.make(epsilon, precision.most_steps, tolerance)) {
-      const double change = step_.take_lifts();
-      const double q = before > 0 ? std::min(largest_q, change / before) : 0;
-      const double found = change * std::max(1 / (1 - q), softest) * std::max(1.0, epsilon / least);
-      if (!(found <= solved) || !std::isfinite(found)) {  // of rounding: the step before is better
-        step_.first_lifts();
-        break;
-      }
-      error = found;
-      if (first_ == 0) first_ = change;
-      is_better_ = change <= first_;
-      step_.accept();
-      const bool is_exact = epsilon <= least && change * epsilon <= Step::rounding;
-      if (is_exact || error <= tolerance) {
-        const bool falls = error <= Step::polish * solved;
-        solved = error;
-        if (is_exact || !falls || !step_.polishes() || step_.steps() == 0 ||
-            step_.steps() >= polish_steps)
-          break;
-      }
-      before = epsilon <= least ? change : 0;
-      epsilon = std::max(least, lower * epsilon);
-    }
-    if (!std::isfinite(solved)) return std::max(error, 2 * tolerance);
+    const Errors errors = make_steps(epsilon, precision);
+    if (!errors.is_solved()) return std::max(errors.last, 2 * precision.tolerance);
     if (has_smooth_point()) {
       step_.refine(mass_ratio());
       is_better_ = true;  // the changes of the steps before are those of rounding
     }
-    return error;
+    return errors.last;
   }
   /// solve(), but near other impulses than those of start(), of which only the motion is taken. What they do not bear is
   /// shared as if by equal springs. The lifts begin with zero; if some contacts slip, the steps are done again with the
@@ -200,6 +173,47 @@ class IslandNewton {
   static constexpr double visits_per_contact = 5 * S::angular_dim,
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
+
+  /// The errors of the proximal steps that were taken, as solve() returns them [-].
+  struct Errors {
+    double last = 0;                                          // of the last step
+    double solved = std::numeric_limits<double>::infinity();  // of the last that solves the island
+    bool is_solved() const { return std::isfinite(solved); }
+  };
+  /// Makes proximal steps until the error is below the tolerance and further steps would gain little, until it no
+  /// longer falls, or until a step fails.
+  MOREAU_INLINED Errors make_steps(double epsilon, const Precision& precision) {
+    const double tolerance = precision.tolerance, least = precision.least_epsilon;
+    // Of the mode that holds the heaviest body by the lightest, through all others.
+    const double bodies = double(step_.points().bodies());
+    const double softest = 1 + least * mass_ratio() * bodies * bodies;
+    Errors errors;
+    double before = 0;  // change by the step before, with the least epsilon
+    bool goes_on = true;
+    while (goes_on && step_.make(epsilon, precision.most_steps, tolerance)) {
+      const double change = step_.take_lifts();
+      const double q = before > 0 ? std::min(largest_q, change / before) : 0;
+      const double error = change * std::max(1 / (1 - q), softest) * std::max(1.0, epsilon / least);
+      if (!(error <= errors.solved) || !std::isfinite(error)) {
+        step_.first_lifts();  // the error is that of rounding: the step before is better
+        break;
+      }
+      if (first_ == 0) first_ = change;
+      is_better_ = change <= first_;
+      step_.accept();
+      errors.last = error;
+      const bool is_exact = epsilon <= least && change * epsilon <= Step::rounding;
+      if (is_exact || error <= tolerance) {
+        // Steps below the tolerance are made as long as they are cheap and the error falls.
+        goes_on = !is_exact && error <= Step::polish * errors.solved && step_.polishes() &&
+                  step_.steps() > 0 && step_.steps() < polish_steps;
+        errors.solved = error;
+      }
+      before = epsilon <= least ? change : 0;
+      epsilon = std::max(least, lower * epsilon);
+    }
+    return errors;
+  }
 
   Step step_;
   double first_ = 0;        // see first_change()

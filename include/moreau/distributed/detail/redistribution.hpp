@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Moves grains and their contacts from process to process, and finds ghosts.
-//
-// A contact of grains a and b in the next steps needs the centre of a within
-//
-//     R_a + R_b + margin + 2 slack
-//
-// of the centre of b now, with the circumradii R, the margin (or the reach of bridges if it is larger), and the slack
-// that each centre may move before the next redistribution. Each grain is therefore lent to all owners of the box around
-// its centre with R_b of the widest grain. In a periodic cell the same is done for its images. Poses are not wrapped.
-// The slack includes half of what the longest bond is stretched.
+// Moves grains and their contacts from process to process, and finds ghosts (lend_grains.hpp). The slack that each
+// centre may move before the next redistribution includes half of what the longest bond is stretched.
 #pragma once
 
 #include <algorithm>
@@ -22,20 +14,17 @@
 #include <utility>
 #include <vector>
 
-#include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/core/neighbour_cells.hpp"
-#include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/distributed/communicator.hpp"
 #include "moreau/distributed/detail/ghost_motion.hpp"
+#include "moreau/distributed/detail/lend_grains.hpp"
 #include "moreau/distributed/detail/rank_topology.hpp"
 #include "moreau/distributed/detail/shape_store.hpp"
 #include "moreau/distributed/detail/whole_simulation.hpp"
 #include "moreau/distributed/detail/world_parts.hpp"
 #include "moreau/distributed/domain_decomposition.hpp"
-#include "moreau/shape/circumradius.hpp"
 #include "moreau/world/bond.hpp"
 
 namespace moreau::detail {
@@ -98,10 +87,6 @@ class Redistribution {
   void cut_if_uneven(double imbalance);
   /// Sends grains and contacts to the new owners.
   void migrate(Grains& grains, ContactsOnTheWay& contacts);
-  /// Lends grains to the ranks that need them as ghosts.
-  /// @param lent out: ids of the grains that each rank gets
-  /// @returns the ghosts from each rank
-  std::vector<Grains> lend(Grains& grains, Scalar slack, std::vector<std::vector<BodyId>>& lent);
   void assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
                 const std::vector<std::vector<BodyId>>& lent);
   void take_contacts(ContactsOnTheWay& contacts);
@@ -109,8 +94,6 @@ class Redistribution {
   /// Largest distance of the two points of a bond here [m].
   Scalar longest_stretch();
 
-  /// The ranks that need a grain at x.
-  void find_ranks(const Vector& x, Scalar reach, std::vector<int>& found);
   Vector wrapped(const Vector& x) const { return world_.cell().wrap(x); }
   /// The local index of a body of the whole simulation; `none` if it is not here.
   std::uint32_t local_index(std::uint32_t global) const {
@@ -136,7 +119,6 @@ class Redistribution {
   ShapeStore<ShapeT> shapes_;  // during a redistribution
   WholeSimulation<World> whole_;
   GhostMotion<S> ghost_motion_;
-  std::vector<int> ranks_of_image_;
   std::vector<Bond<S>> bonds_;       // during a redistribution, with bodies of the whole simulation
   std::vector<Breakage> breakages_;  // of this process up to the last one, likewise
 };
@@ -206,7 +188,8 @@ void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   const Scalar longest = Scalar(processes_.largest(double(longest_stretch())));
   migrate(grains, contacts);
   std::vector<std::vector<BodyId>> lent(ranks());
-  std::vector<Grains> ghosts = lend(grains, slack + longest / 2, lent);
+  std::vector<Grains> ghosts = lend_grains(grains, shapes_, world_.cell(), parts.lengths().margin,
+                                           slack + longest / 2, decomposition_, processes_, lent);
   assemble(grains, ghosts, walls, lent);
   take_contacts(contacts);
   take_bonds();
@@ -284,53 +267,6 @@ void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) 
   }
   contacts.sort();
   shapes_.fetch(from, processes_);
-}
-
-template <class World>
-std::vector<typename Redistribution<World>::Grains> Redistribution<World>::lend(
-    Grains& grains, Scalar slack, std::vector<std::vector<BodyId>>& lent) {
-  std::vector<Scalar> radius;
-  for (const ShapeId shape : grains.shapes) radius.push_back(circumradius(shapes_[shape]));
-  double widest = 0;
-  for (const Scalar r : radius) widest = std::max(widest, double(r));
-  widest = processes_.largest(widest);
-  Parts parts(world_);
-  const Scalar around = Scalar(widest) + parts.lengths().margin + 2 * slack;
-  std::vector<Grains> out(ranks());
-  std::vector<int> found;
-  for (std::size_t k = 0; k < grains.size(); ++k) {
-    find_ranks(wrapped(grains.bodies.pose[k].position), radius[k] + around, found);
-    for (const int rank : found) {
-      if (rank == processes_.rank()) continue;
-      out[std::size_t(rank)].add(grains.bodies, k, grains.bodies.id[k], grains.shapes[k]);
-      lent[std::size_t(rank)].push_back(grains.bodies.id[k]);
-    }
-  }
-  for (std::vector<BodyId>& list : lent) std::sort(list.begin(), list.end());
-  std::vector<std::string> bytes;
-  for (Grains& one : out) bytes.push_back(one.size() == 0 ? std::string() : packed(one));
-  const std::vector<std::string> in = processes_.exchange(std::move(bytes));
-  std::vector<Grains> ghosts(ranks());
-  for (std::size_t rank = 0; rank < ranks(); ++rank)
-    if (!in[rank].empty()) unpack(in[rank], ghosts[rank]);
-  shapes_.fetch(ghosts, processes_);
-  return ghosts;
-}
-
-template <class World>
-void Redistribution<World>::find_ranks(const Vector& x, Scalar reach, std::vector<int>& found) {
-  found.clear();
-  const PeriodicCell<S>& cell = world_.cell();
-  const Vector half = Vector::Constant(reach);
-  for (int k = 0; k < detail::neighbour_cells<S::dim>(); ++k) {
-    const auto steps = detail::neighbour_cell<Vector>(k);
-    if (!cell.has_image(steps)) continue;
-    const Vector center = x + steps.cwiseProduct(cell.length());
-    decomposition_.owners({center - half, center + half}, ranks_of_image_);
-    found.insert(found.end(), ranks_of_image_.begin(), ranks_of_image_.end());
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
 template <class World>

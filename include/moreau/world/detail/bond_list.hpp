@@ -44,7 +44,11 @@
 namespace moreau::detail {
 
 /// In place of the bonds of a law that has none.
-struct NoBonds {};
+struct NoBonds {
+  static void start(const auto&) {}
+  static void hide(const auto&, const auto& use) { use(); }
+  static void offset(const auto&, const auto&, const auto&) {}
+};
 
 /// The bonds of a simulation, sorted by their bodies, and the list of breakages.
 template <class S, class Law>

@@ -92,7 +92,10 @@ class BridgeBits {
 };
 
 /// In place of the bridges of a law that has none.
-struct NoBridges {};
+struct NoBridges {
+  static void save(const auto&) {}
+  static void restore(const auto&) {}
+};
 
 /// The forces with which the bodies of contacts attract each other, >= 0 [N].
 /// @param forces out: one per contact

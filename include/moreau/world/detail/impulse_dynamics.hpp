@@ -41,8 +41,7 @@
 #include "moreau/world/detail/body_shifts.hpp"
 #include "moreau/world/detail/bond_list.hpp"
 #include "moreau/world/detail/bridges.hpp"
-#include "moreau/world/detail/cell_jumps.hpp"
-#include "moreau/world/detail/cell_servo.hpp"
+#include "moreau/world/detail/cell_equation.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_laws.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
@@ -158,15 +157,10 @@ class ImpulseDynamics {
   /// @param report out: cell_work
   /// @returns V sigma, see world/cell_control.hpp [J]
   typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
-    const Bodies<S>& bodies = context.bodies;
-    const std::span<const Twist> after(after_);
-    if (context.deforms())
-      report.cell_work = CellJumps<S>::work(bodies, context.contacts, after, context.cell->rate(),
-                                            servo_.rate(), context.step);
-    return CellJumps<S>::moment(bodies, context.contacts, after, context.step);
+    return cell_.measure(context, std::span<const Twist>(after_), report);
   }
   /// L of the periodic cell after the step, once the contact problem is solved [1/s].
-  const typename S::Matrix& cell_rate() const { return servo_.rate(); }
+  const typename S::Matrix& cell_rate() const { return cell_.rate(); }
   /// Stages 10 and 11.
   void finish(const Context& context, StepReport& report);
 
@@ -210,34 +204,24 @@ class ImpulseDynamics {
     }
     problem_.delassus.assemble(context.contacts.points, roots_, free_,
                                springs_.compliances(context), team_);
-    if (context.deforms()) {
-      servo_.start(*context.cell, context.bodies, context.step);
-      jumps_.add(context.cell->rate(), context.contacts, problem_.delassus, team_);
-    }
+    if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
-    if constexpr (!compliant) {
-      const std::size_t found = start(context, context.previous);
-      attraction_.add_to(std::span<Row>(context.contacts.impulses));
-      if constexpr (bonding) bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
-      return found;
-    } else {
-      // The springs bear the pushes.
-      const std::size_t found =
-          start(context, attraction_.pushes_before(context, springs_.last_step()));
-      const std::span<Row> impulses(context.contacts.impulses);
+    const std::span<Row> impulses(context.contacts.impulses);
+    std::size_t found = 0;
+    if constexpr (compliant) {
+      // The springs bear the pushes against the attraction of contacts, but not the attraction of bonds.
+      found = start(context, attraction_.pushes_before(context, springs_.last_step()));
       springs_.scale(context, impulses);
-      if constexpr (bonding) {
-        bonds_.hide(impulses, [&] { springs_.relax(context, impulses, problem_.delassus); });
-        attraction_.add_to(impulses);
-        bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
-      } else {
-        springs_.relax(context, impulses, problem_.delassus);
-      }
-      return found;
+      bonds_.hide(impulses, [&] { springs_.relax(context, impulses, problem_.delassus); });
+    } else {
+      found = start(context, context.previous);
     }
+    if constexpr (bonding || !compliant) attraction_.add_to(impulses);
+    bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
+    return found;
   }
   /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of the springs of
   /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact.
@@ -255,11 +239,11 @@ class ImpulseDynamics {
       return carry_by(ImpulseTurn<S>());
   }
   std::size_t start(const Context& context, const ContactsOf<Law, S>& before) {
-    if constexpr (bridging) bridges_.save(context.contacts);
+    bridges_.save(context.contacts);
     const std::size_t found = carry_impulses(context, before);
     problem_.delassus.to_rows(context.contacts.impulses, team_);
-    if constexpr (bridging) bridges_.restore(context.contacts);
-    if constexpr (bonding) bonds_.start(context.contacts);
+    bridges_.restore(context.contacts);
+    bonds_.start(context.contacts);
     return found;
   }
 
@@ -286,7 +270,7 @@ class ImpulseDynamics {
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
           RestitutionLimit<S, Law>::negligible_velocity(context.grain_size, context.step),
           report.solve);
-    if (moves_cell(context)) end_cell(context);
+    if (cell_.moves(context)) cell_.leave(context, problem_.delassus);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
@@ -297,31 +281,10 @@ class ImpulseDynamics {
     problem_.delassus.from_rows(impulses, team_);
   }
 
-  bool moves_cell(const Context& context) const { return context.deforms() && servo_.moves(); }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
-    if (moves_cell(context)) start_cell(context);
+    if (cell_.moves(context)) cell_.join(context, attraction_.pulls(), problem_.delassus);
     report.solve = solver_.solve(problem_, std::span<Row>(context.contacts.impulses), workspace_);
-  }
-  /// Makes the cell a body of the operator.
-  void start_cell(const Context& context) {
-    typename S::Matrix moment = S::Matrix::Zero();
-    if constexpr (AttractiveLaw<Law, S>)
-      moment = CellJumps<S>::moment_of_contacts(
-          context.contacts,
-          [&](std::size_t c) { return Vector(-attraction_.pulls()[c] * Vector::Unit(0)); },
-          Scalar(1));
-    servo_.set_rate(servo_.free(moment));
-    jumps_.change(servo_.rate(), context.contacts, problem_.delassus);
-    problem_.delassus.add_cell(servo_.response());
-  }
-  /// Takes the rate of the cell from the operator; its free velocities have it from then on.
-  void end_cell(const Context& context) {
-    Operator& op = problem_.delassus;
-    op.move_cell(std::span<const Row>(context.contacts.impulses));
-    servo_.set_rate(servo_.rate() + op.cell_change());
-    op.remove_cell();
-    jumps_.change(servo_.rate(), context.contacts, op);
   }
 
   /// Counts the energy that bonds took; removes those that broke.
@@ -339,7 +302,7 @@ class ImpulseDynamics {
 
   void measure_losses(const Context& context, StepReport& report) {
     // The mean of the velocities before and after has the cell's once, too.
-    if (context.deforms()) laws_.add_jumps(jumps_);
+    if (context.deforms()) laws_.add_jumps(cell_.jumps());
     const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
                                                    laws_.velocities_before(), std::span(after_));
     report.friction += losses.friction;
@@ -369,8 +332,7 @@ class ImpulseDynamics {
   BodyShifts<S> shifts_;  // by the overlap correction
   typename WorkspaceOf<Solver, Operator, Law>::type workspace_;
   ContactLaws<S, Law> laws_;
-  CellJumps<S> jumps_;  // of a periodic cell that deforms
-  CellServo<S> servo_;  // of one that can move by its stress
+  CellEquation<S, Law> cell_;  // of a periodic cell that deforms
 
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
@@ -422,8 +384,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
     const Contact<S>& contact = context.contacts.points[c];
     return contact.gap + correction_.gap_change(contact);
   };
-  const Scalar approach =
-      laws_.offset_velocities(context, problem_, context.contacts.impulses, gap_of, jumps_, team_);
+  const Scalar approach = laws_.offset_velocities(context, problem_, context.contacts.impulses,
+                                                  gap_of, cell_.jumps(), team_);
   report.approach = double(approach * context.step / context.margin);
   solve(context, report);
   report.ms_contacts += clock.lap();

@@ -124,32 +124,36 @@ class RestitutionLimit {
   };
   static constexpr double rounding =
       std::max(1e-12, 8 * double(std::numeric_limits<Scalar>::epsilon()));  ///< of sums, relative
+  /// Sums over the contacts of an island; r and u with restitution, r_0 and u_0 without [J].
   struct Island {
-    double gain = 0,
-           size =
-               0;  // with restitution: G and the sum of |gain| + |r . u|, which bounds its rounding
-    double start = 0, slope = 0, curvature = 0;  // of the parabola G(s)
-    double rest = 0;                             // size without restitution
-    double work = 0;                             // of rest: the sum of r . u
-    double least = 0, rest_least = 0;            // energy that does not count
+    double gain = 0, rest_gain = 0;  // G(r), G(r_0)
+    // Sums of the absolute values of the terms of G: a multiple bounds the rounding of G.
+    double gain_terms = 0, rest_terms = 0;
+    double least_gain = 0, least_rest_gain = 0;  // energy that does not count
+    double rest_work = 0;                        // r_0 . u_0
+    // G(r_0 + s (r - r_0)) = rest_gain + slope s + curvature s^2 / 2
+    double slope = 0, curvature = 0;
 
     /// More than the rounding of its terms.
-    bool makes_energy() const { return gain > rounding * size; }
+    bool makes_energy() const { return gain > rounding * gain_terms; }
     /// More than what does not count.
-    bool counts() const { return gain > rounding * size + least; }
-    bool rest_counts() const { return start > rounding * rest + rest_least; }
-    /// Of the impulses without restitution, if these are no solution: the largest share that adds no energy.
+    bool counts() const { return gain > rounding * gain_terms + least_gain; }
+    bool rest_counts() const { return rest_gain > rounding * rest_terms + least_rest_gain; }
+    /// The largest s <= 1 with G(s r_0) = s r_0 . u_f + s^2 r_0 . W r_0 / 2 <= 0, where u_f = u_0 - W r_0; 1 if G(r_0)
+    /// does not count.
     MOREAU_INLINED Scalar rest_share() const {
       if (!rest_counts()) return 1;
-      const double free = 2 * start - work, curve = work - start;  // r . u_f, r . W r / 2
-      return free < 0 ? Scalar(std::min(1.0, -free / curve)) : Scalar(0);
+      const double linear = 2 * rest_gain - rest_work, square = rest_work - rest_gain;
+      return linear < 0 ? Scalar(std::min(1.0, -linear / square)) : Scalar(0);
     }
+    /// The largest s in [0, 1] with G(r_0 + s (r - r_0)) <= 0, where G(r_0) > 0 is taken as 0; 1 if r makes no energy.
     Scalar share() const {
       if (!makes_energy()) return 1;
       if (rest_counts() || curvature <= 0) return 0;
-      const double below = std::min(start, 0.);
-      const double root = std::sqrt(slope * slope - 2 * curvature * below);
-      const double s = slope < 0 ? (root - slope) / curvature : -2 * below / (slope + root);
+      const double at_0 = std::min(rest_gain, 0.);
+      const double root = std::sqrt(slope * slope - 2 * curvature * at_0);
+      // The larger root of the parabola, without the difference of nearly equal numbers.
+      const double s = slope < 0 ? (root - slope) / curvature : -2 * at_0 / (slope + root);
       return s < 1 ? Scalar(s) : s >= 1 ? Scalar(1) : Scalar(0);  // 0 of 0/0
     }
   };
@@ -308,12 +312,13 @@ class RestitutionLimit {
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row change = bounce.impulse - rest.impulse;
       island.gain += bounce.gain;
-      island.size += std::abs(bounce.gain) + std::abs(double(bounce.impulse.dot(bounce.velocity)));
-      island.least += double(negligible_ * bounce.impulse.norm());
-      island.rest_least += double(negligible_ * rest.impulse.norm());
-      island.work += double(rest.impulse.dot(rest.velocity));
-      island.start += rest.gain;
-      island.rest += std::abs(rest.gain) + std::abs(double(rest.impulse.dot(rest.velocity)));
+      island.gain_terms +=
+          std::abs(bounce.gain) + std::abs(double(bounce.impulse.dot(bounce.velocity)));
+      island.least_gain += double(negligible_ * bounce.impulse.norm());
+      island.least_rest_gain += double(negligible_ * rest.impulse.norm());
+      island.rest_work += double(rest.impulse.dot(rest.velocity));
+      island.rest_gain += rest.gain;
+      island.rest_terms += std::abs(rest.gain) + std::abs(double(rest.impulse.dot(rest.velocity)));
       island.slope += double(change.dot(rest.velocity));
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
     }
