@@ -58,6 +58,7 @@ struct Numerics {
   double step = 1e-4;       ///< [s]
   double tolerance = 1e-3;  ///< of the solver
   double margin = 0.1;      ///< of detection, of the smallest diameter
+  int max_sweeps = 500;     ///< of a step
 
   std::string text() const {
     return "step " + std::to_string(step) + " tolerance " + std::to_string(tolerance);
@@ -69,7 +70,7 @@ struct Numerics {
 inline World world_of(double size, const Numerics& numerics, int threads) {
   moreau::ColouredOptions options;
   options.tolerance = numerics.tolerance;
-  options.max_sweeps = 500;
+  options.max_sweeps = numerics.max_sweeps;
   moreau::Tolerances tolerances;
   tolerances.margin = numerics.margin;
   tolerances.skin = 0.1;

@@ -28,16 +28,17 @@ do for [n in "25 100"] {
          for [k = 3:count] file(name) using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : "")
   }
 }
-if (has("squeeze_10000_HertzMindlin_10")) {
+if (has("squeeze_10000_SignoriniCoulomb_500")) {
   set output folder . "/squeeze.png"
   set title "Velocity of the steel ball, narrow bed of 10,000 balls"
   set xlabel "t [ms]"; set ylabel "velocity upwards [m/s]"; set key top left
   csv(name) = has(name) ? file(name) : "/dev/null"
   plot csv("squeeze_10000_HertzMindlin_10") using 1:3 skip 1 with lines lw 2 lc rgb other title "HertzMindlin, 1 µs", \
        csv("squeeze_10000_HertzMindlin_e0.20_10") using 1:3 skip 1 with lines dt 2 lc rgb other title "the same, e = 0.2", \
-       csv("squeeze_10000_SignoriniCoulomb_500") using 1:3 skip 1 with lines lw 2 lc rgb own title "rigid, 50 µs", \
-       csv("squeeze_10000_SignoriniCoulomb_e1.00_500") using 1:3 skip 1 with lines dt 2 lc rgb own title "the same, e = 1", \
-       csv("squeeze_10000_Compliant_200") using 1:3 skip 1 with lines lc rgb last title "Compliant, 20 µs"
+       csv("squeeze_10000_SignoriniCoulomb_500") using 1:3 skip 1 with lines lw 2 lc rgb own title "rigid, 50 µs, residual 1e-3", \
+       csv("squeeze_10000_SignoriniCoulomb_500_tight") using 1:3 skip 1 with lines lw 2 dt 3 lc rgb last title "the same, 1e-5", \
+       csv("squeeze_10000_SignoriniCoulomb_e1.00_500") using 1:3 skip 1 with lines dt 2 lc rgb own title "the same, e = 1, 1e-3", \
+       csv("squeeze_10000_Compliant_200") using 1:3 skip 1 with lines lc rgb third title "Compliant, 20 µs"
   set key top right
 }
 if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
@@ -63,16 +64,20 @@ if (has("oblique_glass") && has("oblique_acetate")) {
   set key top right
 }
 do for [kind in "plane axisymmetric"] {
-  name = "columns_" . kind
+  name = "columns_" . kind; angular = name . "_polygons"
   if (has(name)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Collapse of a column, %s: run-out over the initial radius", kind)
     set xlabel "a = height / radius"; set ylabel "run-out / radius"; set xrange [0:*]; set yrange [0:*]
     set key top left
-    of(mu) = sprintf("< awk -F, 'NR > 1 && $1 == %s' '%s'", mu, file(name))
-    plot file(name) using 2:5 skip 1 with points pt 5 lc rgb other title "experiments (formula)", \
-         of("0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 6 lc rgb own title "moreau, friction 0.3", \
-         of("0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 4 lc rgb last title "moreau, friction 0.6"
+    of(name, mu) = has(name) ? sprintf("< awk -F, 'NR > 1 && $1 == %s' '%s'", mu, file(name)) : "/dev/null"
+    round = kind eq "plane" ? "disks" : "balls"
+    formula(a) = kind eq "plane" ? 1.2 * a : a < 1.7 ? 1.24 * a : 1.6 * sqrt(a)
+    plot formula(x) with lines lw 2 lc rgb other title "experiments (formula)", \
+         of(name, "0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 6 lc rgb own title round . ", friction 0.3", \
+         of(name, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 4 lc rgb last title round . ", friction 0.6", \
+         of(angular, "0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 7 lc rgb own title has(angular) ? "polygons, friction 0.3" : "", \
+         of(angular, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 5 lc rgb last title has(angular) ? "polygons, friction 0.6" : ""
     set key top right; set autoscale
   }
 }
