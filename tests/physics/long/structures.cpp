@@ -64,12 +64,14 @@ TEST_CASE_TEMPLATE("structures stand with the default options in single precisio
                    Polyhedron<float>, Polygon<float>) {
   for (const double h : {1e-3, 1.0 / 60}) {
     const int count = static_cast<int>(5 / h);
-    for (const int cubes : {2, 10, 20})
+    for (const int cubes : {2, 10, 20, 30, 50}) {
+      if (cubes > 20 && h < 1e-2) continue;
       for (const double jitter : {0.0, 0.005})
         masonry::check_stands_by_default(masonry::stack<ShapeT>(cubes, 0.5, jitter), h, count);
+    }
     for (const double ratio : {1e3, 1e-3})
       masonry::check_stands_by_default(masonry::stack<ShapeT>(2, 0.5, 0, ratio), h, count);
-    // Larger arches stand as well, but 2 % of the steps are reported as unsolved.
+    // Larger arches stand as well, but with 1 ms more than 1 % of the steps are reported as unsolved.
     masonry::check_stands_by_default(masonry::arch<ShapeT>(11, 0.2), h, count);
     masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, count);
     masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
