@@ -243,3 +243,86 @@ TEST_CASE("a polytope that slides along a cylinder loses speed with the square o
       CHECK(std::abs(kept_energy(cube, 0.1, 1e-3, v, 0, spin, 1) - 1) < 2e-4);
     }
 }
+
+TEST_CASE_TEMPLATE("balls that turn on the spot carry a ball and let nothing sink", ShapeT, Disk<>,
+                   Ball<>) {
+  using S = SpaceOf<ShapeT>;
+  constexpr int count = S::dim;  // supports under the ball
+  for (const double h : {5e-3, 1e-3})
+    for (const double spin : {10.0, -50.0}) {
+      CAPTURE(h);
+      CAPTURE(spin);
+      World<ShapeT> world(0.2, friction<ShapeT>(0));
+      world.set_gravity(-9.81 * S::Vector::Unit(S::dim - 1));
+      const ShapeId shape = world.add_shape(ShapeT(0.1));
+      for (int k = 0; k < count; ++k) {
+        typename S::Vector center = S::Vector::Zero();
+        const double angle = turn * k / count;
+        for (int axis = 0; axis + 1 < S::dim; ++axis)
+          center[axis] = 0.12 * (axis == 0 ? std::cos(angle) : std::sin(angle));
+        const BodyId support = world.add_grain(shape, {center, S::identity()}, 1000);
+        world.prescribe_motion(support);
+        typename S::Angular axis = S::Angular::Ones();
+        for (int i = 0; i < S::angular_dim; ++i) axis[i] = spin * (i == k ? 0.5 : 1.0);
+        world.set_spin(support, axis);
+      }
+      const double height = std::sqrt(0.04 - 0.0144);
+      const BodyId ball =
+          world.add_grain(shape, {height * S::Vector::Unit(S::dim - 1), S::identity()}, 1000);
+      for (int k = 0; k < int(0.2 / h); ++k) CHECK(world.step(h).solve.converged);
+      const typename S::Vector moved =
+          world.pose(ball).position - height * S::Vector::Unit(S::dim - 1);
+      CHECK(moved.norm() < 1e-9);
+    }
+}
+
+// A ball that rolls on a turntable runs on a circle, with 2/7 of the turntable's rate (J. A. Burns, Am. J. Phys. 49
+// (1981) 56); one that rolls round in a vertical tube goes down and up like a spring, with sqrt(2/7) of its rate
+// around the tube (M. Gualtieri et al., Am. J. Phys. 74 (2006) 497).
+TEST_CASE("a ball that rolls on a turntable runs on its circle, to second order") {
+  const double rate = 5, radius = 0.05, around = 2 * rate / 7;
+  const Volume::Vector up = Volume::Vector::UnitZ(), start(0.4, 0.1, radius), velocity(0.1, 0.3, 0);
+  for (const double h : {4e-3, 1e-3}) {
+    CAPTURE(h);
+    World<Ball<>> world(0.1, friction<Ball<>>(0.8));
+    const BodyId table = world.add_wall(up, Volume::Vector::Zero());
+    world.set_spin(table, rate * up);
+    world.set_gravity(-9.81 * up);
+    const BodyId ball =
+        world.add_grain(world.add_shape(Ball<>(radius)), {start, Volume::identity()}, 1000);
+    world.set_velocity(ball, velocity);
+    world.set_spin(ball, up.cross(velocity - rate * up.cross(start)) / radius);
+    const Volume::Vector center = start + up.cross(velocity) / around, arm = start - center;
+    double off = 0;
+    for (int k = 1; k <= int(turn / around / h); ++k) {
+      world.step(h);
+      const double angle = around * h * k;
+      const Volume::Vector place = center + std::cos(angle) * arm + std::sin(angle) * up.cross(arm);
+      off = std::max(off, (world.pose(ball).position - place).norm());
+    }
+    CHECK(off < 1.5 * std::pow(rate * h, 2) * arm.norm());
+  }
+}
+
+TEST_CASE("a ball that rolls round in a tube goes down and up and keeps its energy") {
+  const double tube = 1, radius = 0.1, rate = 5, gravity = 9.81, path = tube - radius;
+  const double swing = rate * std::sqrt(2.0 / 7), drop = 10.0 / 7 * gravity / (swing * swing);
+  for (const double h : {2e-3, 5e-4}) {
+    CAPTURE(h);
+    World<Ball<>> world(0.2, friction<Ball<>>(3));
+    world.add_cylinder(Volume::Vector::Zero(), Volume::Vector::UnitZ(), tube);
+    world.set_gravity({0, 0, -gravity});
+    const BodyId ball = world.add_grain(world.add_shape(Ball<>(radius)),
+                                        {path * Volume::Vector::UnitX(), Volume::identity()}, 1000);
+    world.set_velocity(ball, {0, path * rate, 0});
+    world.set_spin(ball, {0, 0, -path * rate / radius});
+    double off = 0;
+    for (int k = 1; k <= int(2 * turn / swing / h); ++k) {
+      world.step(h);
+      const double height = -drop / 2 * (1 - std::cos(swing * h * k));
+      off = std::max(off, std::abs(world.pose(ball).position[2] - height));
+    }
+    CHECK(off < 3 * std::pow(rate * h, 2) * drop);
+    CHECK(std::abs(world.velocity(ball).norm() / (path * rate) - 1) < 0.3 * std::pow(rate * h, 2));
+  }
+}

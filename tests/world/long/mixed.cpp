@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Assemblies with several types of shapes.
+#include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <random>
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/one_of.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "detect/shapes.hpp"
@@ -100,6 +103,38 @@ TEST_CASE("a plank of two rods does not tip, a ball on a rounded box stays") {
   for (int k = 0; k < 300; ++k) CHECK(world.step(1e-3).solve.converged);
   CHECK((world.pose(top).position - Vector(0, 0, 0.027)).norm() < 1e-5);
   CHECK(world.bodies().velocity[top.index()].norm() < 1e-6);
+}
+
+TEST_CASE("a plank on rollers takes their speed and does not sink") {
+  struct Case {
+    double spin, h, bound;
+  };
+  for (const Case& c : {Case{10, 5e-3, 1e-6}, Case{10, 1e-3, 1e-7}, Case{50, 1e-3, 1e-5}})
+    for (const bool has_capsules : {true, false}) {
+      CAPTURE(c.spin);
+      CAPTURE(c.h);
+      CAPTURE(has_capsules);
+      World world(0.1, Materials<Law>(1, Law(0.3)));
+      world.set_gravity({0, 0, -9.81});
+      const ShapeId roller =
+          has_capsules ? world.add_shape(CapsuleIn<S>(0.1, 0.1)) : world.add_shape(BallIn<S>(0.1));
+      const S::Rotation across = S::exp({0, 0, 1.5707963267948966});
+      for (int k = 0; k < 12; ++k)
+        for (const double y : {-0.1, 0.1}) {
+          if (has_capsules && y > 0) continue;
+          const BodyId body =
+              world.add_grain(roller, {{0.3 * k, has_capsules ? 0 : y, 0}, across}, 1000);
+          world.prescribe_motion(body);
+          world.set_spin(body, {0, c.spin, 0});
+        }
+      const Rounded plank(cuboid<Rock>({0.49, 0.14, 0.04}), 0.01);
+      const BodyId body =
+          world.add_grain(world.add_shape(plank), {{0.75, 0, 0.15}, S::identity()}, 1000);
+      for (int k = 0; k < int(0.6 / c.h); ++k) world.step(c.h);
+      const double speed = std::min(0.1 * c.spin, 0.3 * 9.81 * 0.6);
+      CHECK(std::abs(world.pose(body).position[2] - 0.15) < c.bound);
+      CHECK(std::abs(world.velocity(body)[0] - speed) < 1e-3 * speed);
+    }
 }
 
 }  // namespace

@@ -25,8 +25,21 @@
 // in every step: pi h u / R of its speed per turn. With c a step without friction is the map of SHAKE (J.-P.
 // Ryckaert et al., J. Comput. Phys. 23 (1977) 327), which reflects this part and conserves the speed.
 //
-// Of rounded grains the point that counts is that of the core: the centre of a ball, the end of the
-// segment of a capsule. Of shapes of which only the support function is known it is the centre.
+// Of rounded bodies the point that counts is that of the core: the centre of a ball, the end of the
+// segment of a capsule. Of grains of which only the support function is known it is the centre. X_a and X_b lead to
+// the point of the core of the body that touches the face of the other one. So a ball or a capsule that turns about
+// its own axis moves no point of a core, and nothing sinks into a roller. Where neither body has a face, as between two
+// balls, each X leads to the own core, and instead of the turning face there is the curvature, h/2 |u_t|^2 / d, with
+// the distance d of the cores.
+//
+// A rounded grain that rolls along a face or a cylinder touches it at a place that moves with the velocity c, not with
+// the wall, and its lever from the core to this place turns with the normal, at the rate m. At the end of the step the
+// relative velocity along the wall has changed by
+//
+//     h/2 (w_b x (c - v_b - w_b x X_b) - w_a x m),      c = (velocity of the core of a) + m
+//
+// beside the chords. Without it the velocities of the step lag behind the path by half a step: a ball that rolls on a
+// turntable left its circle by pi h Omega of the radius per turn, and one that rolls round in a tube lost its energy.
 #pragma once
 
 #include <algorithm>
@@ -141,16 +154,25 @@ class ChordVelocities {
     else
       return core_rounding(shape);
   }
-  /// From the point of the core of a grain to the contact point [m].
-  /// @param part    of the grain
-  /// @param outward unit normal out of the grain
-  /// @param lever   from the centre of the grain to the contact point [m]
+  /// Radius of the rounding of a body [m]; 0 for a wall; < 0 if it is not known.
+  static Scalar rounding_of(const Assembly<ShapeT>& assembly, std::uint32_t body,
+                            std::uint32_t part) {
+    const Bodies<S>& bodies = assembly.bodies();
+    if (!(bodies.grain_mass[body] > 0)) return 0;
+    return rounding_of(assembly.shape_of(bodies.id[body]), part);
+  }
+  /// From the point of the core of a body to the contact point [m]; of a grain that moves and whose core is not known
+  /// the whole lever.
+  /// @param part    of the body
+  /// @param outward unit normal out of the body
+  /// @param lever   from the centre of the body to the contact point [m]
   [[gnu::cold, gnu::noinline]] static Vector from_core(const Assembly<ShapeT>& assembly,
-                                                       std::uint32_t grain, std::uint32_t part,
+                                                       std::uint32_t body, std::uint32_t part,
                                                        const Vector& outward, const Vector& lever,
                                                        Scalar gap) {
-    const Scalar radius = rounding_of(assembly.shape_of(assembly.bodies().id[grain]), part);
-    return radius < 0 ? lever : Vector((radius + gap / 2) * outward);
+    const Scalar radius = rounding_of(assembly, body, part);
+    if (radius < 0 && assembly.bodies().rotates(body)) return lever;
+    return (std::max(Scalar(0), radius) + gap / 2) * outward;
   }
   /// Of a half-space, a mesh wall or a grain whose rotation is prescribed.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
@@ -159,23 +181,50 @@ class ChordVelocities {
     const Bodies<S>& bodies = assembly.bodies();
     const std::uint32_t a = contact.a, b = contact.b;
     const Vector normal = contact.frame.col(0);
-    const bool a_moves = bodies.rotates(a);
-    const Vector shift =
-        a_moves ? from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap)
-        : bodies.rotates(b)
-            ? from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap)
-            : Vector(Vector::Zero());
-    const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
-    const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
-    const Vector slip =
-        velocity_at<S>(bodies.velocity[b], lever_b) - velocity_at<S>(bodies.velocity[a], lever_a);
+    const Vector core_a = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
+    const Vector core_b = from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap);
     const auto face_of_b = vertex_on_face(S{});
     const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
     const auto kind = key.feature.kind();
-    const bool owner_is_a = kind == face_of_a || (kind != face_of_b && !a_moves);
-    const Vector turn = step * S::spin(owner_is_a ? of_a : of_b, normal);
-    return chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step) +
-           turn.dot(slip) * normal;
+    // A contact without a face has that of the body that turns by prescription, if that is not round.
+    const bool turning_is_a = !bodies.rotates(a);
+    const bool is_round = turning_is_a ? rounding_of(assembly, a, key.part_a) > 0
+                                       : rounding_of(assembly, b, key.part_b) > 0;
+    const bool has_face = kind == face_of_a || kind == face_of_b || !is_round;
+    const bool owner_is_a = kind == face_of_a || (kind != face_of_b && turning_is_a);
+    const Vector lever_a = contact.lever_a - (has_face && owner_is_a ? core_b : core_a),
+                 lever_b = contact.lever_b - (has_face && !owner_is_a ? core_a : core_b);
+    const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
+    const Vector slip =
+        velocity_at<S>(bodies.velocity[b], lever_b) - velocity_at<S>(bodies.velocity[a], lever_a);
+    Scalar bend = 0;
+    if (has_face)
+      bend = step * S::spin(owner_is_a ? of_a : of_b, normal).dot(slip);
+    else if (const Scalar apart = (core_a - core_b).norm(); apart > 0)
+      bend = step / 2 * (slip.squaredNorm() - std::pow(normal.dot(slip), 2)) / apart;
+    Vector sum = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
+    if (has_face && owner_is_a == turning_is_a) {
+      const Scalar sign = turning_is_a ? -1 : 1;
+      const Vector& core = turning_is_a ? core_b : core_a;
+      const Scalar rounding = turning_is_a ? rounding_of(assembly, b, key.part_b)
+                                           : rounding_of(assembly, a, key.part_a);
+      const Angular &of_wall = turning_is_a ? of_a : of_b, &of_grain = turning_is_a ? of_b : of_a;
+      if (rounding > 0)
+        sum += sign * rolling(normal, of_grain, of_wall, S::spin(of_wall, core),
+                              Vector(sign * slip), step);
+    }
+    return sum + bend * normal;
+  }
+  /// What the relative velocity of a rounded grain and a wall changes by along the wall until the end of the step
+  /// beside the chords: the place of the contact moves with the grain, and the lever from the core turns with the
+  /// normal.
+  /// @param swing rate of change of the lever from the core to the contact [m/s]
+  /// @param slip  velocity of the wall at the core minus that of the core [m/s]
+  /// @returns wall minus grain [m/s]
+  static Vector rolling(const Vector& normal, const Angular& of_grain, const Angular& of_wall,
+                        const Vector& swing, const Vector& slip, Scalar step) {
+    const Vector change = S::spin(of_wall, Vector(swing - slip)) - S::spin(of_grain, swing);
+    return step / 2 * (change - normal.dot(change) * normal);
   }
 
   /// Of a cylinder, which its rotation about its axis leaves where it is.
@@ -203,8 +252,14 @@ class ChordVelocities {
     const Scalar along_normal =
         normal.dot(excess) + step * S::spin(tilt, normal).dot(slip) - curved;
     // Only a wall that turns does work on a grain that rests on it.
-    const Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
-                                      : Vector(chord_excess<S>(of_b, lever_b, step) - own);
+    Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
+                                : Vector(chord_excess<S>(of_b, lever_b, step) - own);
+    if (radius > contact.gap && rounding_of(assembly, a, key.part_a) > 0) {
+      const Vector around = S::spin(axis, normal);
+      const Vector swing = -around.dot(slip) / (radius - contact.gap) * shift.dot(normal) * around;
+      sum += rolling(normal, of_a, of_b, swing,
+                     Vector(slip + S::spin(Angular(of_b - tilt), lever_b)), step);
+    }
     return sum + (along_normal - normal.dot(sum)) * normal;
   }
 
