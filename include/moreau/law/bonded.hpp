@@ -18,7 +18,7 @@
 // and breaks at s = 0. In tension, shear, bending or twisting alone this is linear softening, and the bond dissipates
 // G: in tension s = 1 - (opening) T / (2 G). Under compression friction dissipates more. The strength of a step is the
 // mean over the opening of the step, of which the velocity at the end of the step is a part: softening is implicit, and
-// a bond dissipates G whatever the step (BondList::soften()).
+// a bond dissipates G whatever the step (BondList::find_strengths()).
 //
 // The pair of a broken bond is a contact with friction and resistance to rolling.
 #pragma once

@@ -4,7 +4,7 @@
 //
 //   1. place() writes the bonds to the list of contacts
 //   2. start() gives their contacts the variant with a bond, and offset() adds to b what they are stretched
-//   3. soften() lets the strength of those that yield fall, and the problem is solved again until it stays
+//   3. find_strengths(), soften() let the strength of those that yield fall, and the problem is solved again until it stays
 //   4. yield() and end_step() let them yield and break
 //
 // The memory of a bond is the geometry. Let d be the vector from its point on a to that on b less the slip where it has
@@ -184,32 +184,35 @@ class BondList {
     });
   }
 
-  /// Lets the strength of bonds that yield fall within the step, after the contact problem was solved with the present
+  /// Finds the strength in the step of bonds that yield, after the contact problem was solved with the present
   /// attraction. Let x be the share that a bond loses in the step by its velocity. Its strength in the step is the mean
   /// over the opening, s - x / 2, or s^2 / (2 x) if it breaks: it dissipates the area under the line of softening,
   /// whatever the step. A secant step per bond makes the iteration for one bond end after two solutions.
-  /// @param pulls  impulses of the attraction in the solution [N s]
-  /// @param change function: (contact, change of the impulse of its attraction [N s])
-  /// @returns whether the strength of a bond has changed: the problem must be solved again
-  bool soften(const Materials<Law>& materials, const Operator& op,
-              const ContactsOf<Law, S>& contacts, std::span<const Row> impulses,
-              std::span<const Scalar> pulls, Scalar step, const auto& change) {
-    bool changed = false;
+  /// @param pulls impulses of the attraction in the solution [N s]
+  /// @returns the sum of the squares of the impulses that these strengths differ from the attraction by
+  double find_strengths(const Materials<Law>& materials, const Operator& op,
+                        const ContactsOf<Law, S>& contacts, std::span<const Row> impulses,
+                        std::span<const Scalar> pulls, Scalar step) {
+    double sum = 0;
     for_each([&](std::size_t i, std::size_t c) {
       const Law& law = materials.laws()[contacts.points[c].law];
       const Scalar full = step * law.strength().tension, now = pulls[c] / full;
-      Softening& before = softening_[i];
+      Softening& last = softening_[i];
       const Scalar found = strength_in_step(i, law, yielding(op, i, c), impulses[c], step);
-      const Scalar slope = before.found < 0 || now == before.now
-                               ? Scalar(0)
-                               : (found - before.found) / (now - before.now);
-      before = {now, found};
-      if (!(std::abs(found - now) > enough)) return;
+      const Scalar slope =
+          last.found < 0 || now == last.now ? Scalar(0) : (found - last.found) / (now - last.now);
       const Scalar next = now + (found - now) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
-      changed = true;
-      change(c, full * (std::clamp(next, Scalar(0), bonds_[i].strength_left) - now));
+      last = {now, found, full * (std::clamp(next, Scalar(0), bonds_[i].strength_left) - now)};
+      sum += double(full * (found - now)) * double(full * (found - now));
     });
-    return changed;
+    return sum;
+  }
+  /// Lets the attraction of the bonds fall to the strengths found.
+  /// @param change function: (contact, change of the impulse of its attraction [N s])
+  void soften(const auto& change) const {
+    for_each([&](std::size_t i, std::size_t c) {
+      if (softening_[i].change != 0) change(c, softening_[i].change);
+    });
   }
   /// Most solutions of a step in which bonds yield.
   static constexpr int max_solutions = 30;
@@ -282,11 +285,11 @@ class BondList {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   static constexpr bool is_compliant = CompliantLaw<Law, S>;
   static constexpr Scalar rate = Scalar(0.2);
-  static constexpr Scalar enough = std::is_same_v<Scalar, float> ? Scalar(1e-4) : Scalar(1e-8);
 
-  /// A strength in the step that the problem was solved with, and that of soften() for its solution; < 0: none.
+  /// A strength in the step that the problem was solved with, that of find_strengths() for its solution; < 0: none.
   struct Softening {
     Scalar now = -1, found = -1;
+    Scalar change = 0;  ///< of the impulse of the attraction, for the next solution [N s]
   };
   /// How a bond yields in a step: a step that is repeated with more contacts must not have changed it.
   struct Yield {

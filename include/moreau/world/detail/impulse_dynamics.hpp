@@ -263,8 +263,8 @@ class ImpulseDynamics {
     if constexpr (bonding)
       soften_bonds(
           context, bonds_, attraction_, problem_.delassus, impulses,
-          std::span<const MobilityRoot<S>>(roots_), free_, [&] { solve_problem(context, report); },
-          report.solve, shared_.get());
+          std::span<const MobilityRoot<S>>(roots_), free_, solver_tolerance(),
+          [&] { solve_problem(context, report); }, report.solve, shared_.get());
     if (!shared_)
       laws_.limit().apply(
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
@@ -281,6 +281,13 @@ class ImpulseDynamics {
     problem_.delassus.from_rows(impulses, team_);
   }
 
+  /// Of the residual [-]; 0: the solver does not say.
+  double solver_tolerance() const {
+    if constexpr (requires { double(solver_.options().tolerance); })
+      return solver_.options().tolerance;
+    else
+      return 0;
+  }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
     if (cell_.moves(context)) cell_.join(context, attraction_.pulls(), problem_.delassus);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/mobility.hpp"
@@ -14,20 +16,24 @@
 
 namespace moreau::detail {
 
-/// Solves the contact problem again while the strength of bonds that yield falls within the step.
+/// Solves the contact problem again while the strength of bonds that yield falls within the step: until the impulses
+/// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses, as its
+/// residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield.
 /// @param op       operator of the problem
 /// @param impulses of the present solution [N s]
 /// @param roots    M^-1/2 of every body
 /// @param free     velocities without contacts, one per body [m/s, rad/s]
+/// @param tolerance of the solver [-]
 /// @param solve    function: solves the problem and replaces the report
 /// @param shared   bodies that other processes share; null: none
 template <class S, class Law, class Operator>
 void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
                   Attraction<S, Law>& attraction, Operator& op,
                   std::span<typename Operator::Vector> impulses,
-                  std::span<const MobilityRoot<S>> roots, auto& free, const auto& solve,
-                  SolveReport& report, SharedBodies* shared) {
+                  std::span<const MobilityRoot<S>> roots, auto& free, double tolerance,
+                  const auto& solve, SolveReport& report, SharedBodies* shared) {
   using Scalar = typename S::Scalar;
+  const double enough = std::max(tolerance, std::is_same_v<Scalar, float> ? 1e-4 : 1e-8);
   const auto change = [&](std::size_t c, Scalar pull) {
     attraction.change(c, pull, context.contacts, roots, impulses[c]);
     if constexpr (CompliantLaw<Law, S>) {
@@ -37,10 +43,13 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
     }
   };
   for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
-    double changed = bonds.soften(context.materials, op, context.contacts, impulses,
-                                  attraction.pulls(), context.step, change);
-    if (shared) shared->largest({&changed, 1});
-    if (changed == 0) return;
+    double sums[] = {0, 0};
+    sums[0] = bonds.find_strengths(context.materials, op, context.contacts, impulses,
+                                   attraction.pulls(), context.step);
+    for (const auto& impulse : impulses) sums[1] += double(impulse.squaredNorm());
+    if (shared) shared->sum(sums);
+    if (sums[0] <= enough * enough * sums[1]) return;
+    bonds.soften(change);
     attraction.offset(context.contacts, free, op, shared);
     const int sweeps = report.sweeps;
     solve();
