@@ -8,6 +8,7 @@
 
 #include "moreau/detect/collide.hpp"
 
+#include "detect/flush_pairs.hpp"
 #include "detect/oracle.hpp"
 #include "detect/shapes.hpp"
 
@@ -123,4 +124,31 @@ TEST_CASE("polygons: classes and keys") {
   REQUIRE(manifold.points.size() == 1);
   CHECK(manifold.gap == doctest::Approx(0.005).epsilon(1e-12));
   CHECK((manifold.normal - Vector(0.6, 0.8)).norm() < 1e-12);
+}
+
+TEST_CASE_TEMPLATE("polygons: flush to within roundings, no point is deeper than the pair", T,
+                   double, float) {
+  flush::check_pairs<T, 2>(4000, 4);
+}
+
+TEST_CASE("polygons: two stones of an arch at rest, in float") {
+  // The ends of the joint are farther apart than its sides, by more than the search leaves in doubt.
+  using Plane = Space<2, float>;
+  std::vector<Polygon<float>> shapes;
+  for (const int k : {16, 17}) {
+    std::vector<Plane::Vector> corners;
+    for (const int side : {k, k + 1})
+      for (const double radius : {0.9375, 1.0625}) {
+        const double angle = std::numbers::pi * side / 27;
+        corners.emplace_back(float(radius * std::cos(angle)), float(radius * std::sin(angle)));
+      }
+    shapes.emplace_back(std::span<const Plane::Vector>(corners));
+  }
+  const Pose<Plane> first{{-0.341885835F, 0.939323485F}, Eigen::Rotation2Df(-3.14187637e-05F)};
+  const Pose<Plane> second{{-0.44862321F, 0.893281996F}, Eigen::Rotation2Df(-3.14485005e-05F)};
+  const Placed a(shapes[0], first), b(shapes[1], second);
+  Manifold<Plane> manifold;
+  REQUIRE(collide(a, b, 0.002F, manifold));
+  CHECK(manifold.normal.dot(Plane::Vector(-0.918F, -0.396F)) > 0.999F);
+  for (const auto& point : manifold.points) CHECK(std::abs(point.gap) < 1e-5F);
 }

@@ -8,6 +8,7 @@
 
 #include "moreau/detect/collide.hpp"
 
+#include "detect/flush_pairs.hpp"
 #include "detect/oracle.hpp"
 #include "detect/shapes.hpp"
 #include "rotation_between.hpp"
@@ -326,4 +327,9 @@ TEST_CASE("polyhedra: keys of a flush stack outlive trembling below the toleranc
       for (const auto& point : manifold.points) keys.push_back(point.feature);
     for (std::size_t k = 0; k < 4; ++k) CHECK(manifold.points[k].feature == keys[k]);
   }
+}
+
+TEST_CASE_TEMPLATE("polyhedra: flush to within roundings, no point is deeper than the pair", T,
+                   double, float) {
+  flush::check_pairs<T, 3>(rounds(1000), 4);
 }

@@ -131,6 +131,74 @@ TEST_CASE("check: a grain inside another") {
   CHECK(one_contains(run(world, 1e-3, 1), "overlap of 0.005 m of the bodies 0 and 2"));
 }
 
+TEST_CASE("check: an overlap of an impact asks for a shorter step, not for other grains") {
+  World world(0.1, Materials<Law>(1, Law(0.3, 0.5)));
+  world.add_wall({0, 0, 1}, {0, 0, 0});
+  const ShapeId shape = world.add_shape(cuboid<Polyhedron<>>({0.1, 0.1, 0.1}));
+  bool arose = false;
+  for (int k = 0; k < 20; ++k) {  // from other heights: the floor lies at other parts of a step
+    const BodyId grain = world.add_grain(shape, Pose<Space<3>>({0.3 * k, 0, 0.1 + 1e-4 * k}), 1000);
+    world.set_velocity(grain, {0, 0, -1.9});
+  }
+  for (const std::string& sentence : run(world, 1e-3, 100)) {
+    CAPTURE(sentence);
+    CHECK(sentence.find("add") == std::string::npos);
+    CHECK(sentence.find("Add") == std::string::npos);
+    arose = arose || sentence.find("it arose in this step") != std::string::npos;
+  }
+  CHECK(arose);
+}
+
+TEST_CASE("check: an overlap that is older than the step") {
+  World world = cube(0.02, 0.0);
+  const BodyId grain = world.grain(0);
+  world.set_pose(grain, Pose<Space<3>>({0, 0, 0.5}));
+  CHECK(run(world, 1e-4, 2).empty());
+  world.set_pose(grain, Pose<Space<3>>({0, 0, 0.009}));
+  world.set_velocity(grain, {0, 0, 0});
+  CHECK(one_contains(run(world, 1e-4, 2), "it is older than this step"));
+}
+
+TEST_CASE("check: an obstacle is not judged by its density or size") {
+  World world = cube(0.02, 0.02);
+  const ShapeId rail = world.add_shape(cuboid<Polyhedron<>>({0.002, 0.002, 0.002}));
+  const BodyId obstacle = world.add_grain(rail, Pose<Space<3>>({0.1, 0, 0.1}), 1);
+  world.prescribe_motion(obstacle);
+  CHECK(run(world, 5e-4, 10).empty());
+  world.release(obstacle);
+  CHECK(one_contains(run(world, 5e-4, 1), "that of no grain"));
+}
+
+TEST_CASE("check: a plank among large grains allows its thickness as the grain size") {
+  for (const double size : {0.02, 0.01}) {
+    World world(size, Materials<Law>(1, Law(0.5)));
+    const ShapeId large = world.add_shape(cuboid<Polyhedron<>>({0.15, 0.15, 0.15}));
+    world.add_grain(large, Pose<Space<3>>({0.2, 0, 0.1}), 2700);
+    world.add_grain(world.add_shape(cuboid<Polyhedron<>>({0.8, 0.1, 0.02})),
+                    Pose<Space<3>>({-0.4, 0, 0.1}), 700);
+    world.add_wall({0, 0, 1}, {0, 0, 0});
+    world.set_gravity({0, 0, -9.81});
+    CHECK(run(world, 1e-4, 3).empty() == (size == 0.02));
+  }
+}
+
+TEST_CASE("check: each kind of sentence once") {
+  World world = cube(20, 0.02);
+  SentencesOnce once;
+  const auto first = once(check(world, world.step(0.05)));
+  CHECK(one_contains(first, "ball around the smallest grain"));
+  std::size_t all = 0;
+  for (int k = 0; k < 5; ++k) {
+    const auto more = check(world, world.step(0.05));
+    all += more.size();
+    CHECK(once(more).empty());
+  }
+  CHECK(all >= 5);
+  CHECK(once({"overlap of 1e-05 m of the bodies 1 and 2, 0.5 of the grain size."}).size() == 1);
+  CHECK(once({"overlap of 0.25 m of the bodies 17 and 2, -2e+10 of the grain size."}).empty());
+  CHECK(once({"overlap of 0.25 m", "overlap of 1 mm"}).size() == 2);
+}
+
 TEST_CASE("check: a tolerance that says little about the forces of stiff contacts") {
   using Soft = Compliant<Law>;
   ColouredOptions options;

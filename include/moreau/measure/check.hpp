@@ -2,6 +2,7 @@
 // Settings of a simulation that give results which look right and are wrong.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,27 @@
 #include "moreau/world/step_report.hpp"
 
 namespace moreau {
+
+/// Passes each kind of sentence of check() once. The sentences have numbers of the step in them, so a log that compares
+/// whole sentences repeats them in every step; here two sentences are of one kind if they differ in numbers only.
+///
+///     moreau::SentencesOnce once;
+///     for (...)
+///       for (const std::string& sentence : once(moreau::check(simulation, simulation.step(h))))
+///         std::cerr << sentence << '\n';
+class SentencesOnce {
+ public:
+  /// The sentences of a kind that no sentence before had, in the same order.
+  std::vector<std::string> operator()(const std::vector<std::string>& sentences) {
+    std::vector<std::string> fresh;
+    for (const std::string& sentence : sentences)
+      if (seen_.insert(detail::without_numbers(sentence)).second) fresh.push_back(sentence);
+    return fresh;
+  }
+
+ private:
+  std::set<std::string> seen_;
+};
 
 /// Judges the last step of a simulation.
 ///
@@ -22,10 +44,11 @@ namespace moreau {
 /// @returns one sentence with numbers for each of the following faults; empty if there are none:
 ///          - the surfaces of a contact that was found approached by more than the margin
 ///            in the step: others may have been missed
-///          - the smallest grain is five times smaller or larger than the grain size, to which all
-///            tolerances are relative
-///          - an overlap beyond 1 % of the grain size: grains were added inside one another, the
-///            step is too long, or compliant contacts are too soft; two bodies are named
+///          - the smallest grain whose motion is not prescribed is five times smaller or larger than the grain size, to which all
+///            tolerances are relative. A plate or a stick among the grains allows a grain size down to its thickness
+///          - an overlap beyond 1 % of the grain size; two bodies are named. The sentence tells an overlap at the
+///            start (grains were added inside one another), one that arose in the step (a fast approach: the step
+///            is too long), and one that is older
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
@@ -42,7 +65,9 @@ template <class Simulation>
 [[nodiscard]] std::vector<std::string> check(const Simulation& simulation,
                                              const StepReport& report) {
   detail::Findings found;
-  detail::check_report(found, report, double(simulation.grain_size()));
+  const double size = double(simulation.grain_size());
+  const bool is_first = double(simulation.time()) < 1.5 * report.step;
+  detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
   detail::check_units(found, simulation, report.step);
   detail::check_lost(found, simulation);
   return found.sentences;

@@ -275,6 +275,7 @@ class Simulation : public BodyControl<ShapeT> {
 
   double time() const { return time_; }              ///< sum of the steps [s]
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
+  const Tolerances& tolerances() const { return tolerances_; }  ///< of detection
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
   const ContactsOf<Law, S>& contacts() const { return contacts_; }
   const Materials<Law>& materials() const { return materials_; }  ///< of all pairs

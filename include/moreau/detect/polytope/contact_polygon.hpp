@@ -77,6 +77,8 @@ class ContactPolygon {
     sides(corners_b_, m, corners_a_, n, beside_b_, sides_b_);
     plane_a_ = plane(a_, face_a_, Vector::Zero());
     plane_b_ = plane(b_, face_b_, offset);
+    highest_a_ = *std::max_element(&corners_a_.h(0), &corners_a_.h(0) + n);
+    lowest_b_ = *std::min_element(&corners_b_.h(0), &corners_b_.h(0) + m);
   }
 
   /// Calls use(ManifoldPoint) for each corner of the polygon.
@@ -86,13 +88,13 @@ class ContactPolygon {
     for (std::size_t i = 0; i < n; ++i) {
       if (is_outside(sides_b_, beside_b_, i, m)) continue;
       const T x = corners_a_.x(i), y = corners_a_.y(i);
-      use(point(x, y, corners_a_.h(i), height(plane_b_, x, y),
+      use(point(x, y, corners_a_.h(i), std::max(height(plane_b_, x, y), lowest_b_),
                 FeatureKey(FeatureKey::Kind::vertex_face, loop_a_[i], face_b_)));
     }
     for (std::size_t j = 0; j < m; ++j) {
       if (is_outside(sides_a_, beside_a_, j, n) || is_corner_of_a(j)) continue;
       const T x = corners_b_.x(j), y = corners_b_.y(j);
-      use(point(x, y, height(plane_a_, x, y), corners_b_.h(j),
+      use(point(x, y, std::min(height(plane_a_, x, y), highest_a_), corners_b_.h(j),
                 FeatureKey(FeatureKey::Kind::face_vertex, face_a_, loop_b_[m - 1 - j])));
     }
     for (std::size_t i = 0; i < n; ++i) {
@@ -306,6 +308,9 @@ class ContactPolygon {
   Beside beside_b_;  // result of sides() for b's edges and a's corners
   Signs sides_a_, sides_b_;
   std::array<T, 3> plane_a_{}, plane_b_{};
+  // Heights of the vertices of the two faces that bound their planes. A corner counts as inside a face up to `near`
+  // beyond an edge, where the plane of a steep face continued would be far deeper than the surface.
+  T highest_a_ = 0, lowest_b_ = 0;
 };
 
 /// The overlap of the facing features of a pair. Call for_each_corner of the result.

@@ -63,9 +63,11 @@ class ContactSegment {
       const auto [low, high] = std::minmax(ends[0].x, ends[1].x);
       return x >= low - near && x <= high + near;
     }
+    /// The height at x, and beyond an end the height of the end: contains() takes x up to `near` beyond it, where a
+    /// steep edge continued would be far deeper than the surface.
     T height(T x) const {
       const T along = ends[1].x - ends[0].x;
-      const T t = along == T(0) ? T(0) : (x - ends[0].x) / along;
+      const T t = along == T(0) ? T(0) : std::clamp((x - ends[0].x) / along, T(0), T(1));
       return ends[0].h + t * (ends[1].h - ends[0].h);
     }
   };

@@ -130,11 +130,12 @@ FoundAxis<Space<2, T>> find_axis(const PolytopePair<Polygon<T>>& pair, T margin)
   const auto [axis, is_exact] = find_edge_axis(pair, margin);
   if (axis.gap > margin || is_exact) return {axis, axis.gap > margin};
   const auto nearest = nearest_features(pair);
-  // If two vertices almost touch, rounding decides on the direction between them. Then the normal
-  // of the edge is kept.
-  const T doubt = T(4) * pair.rounding();
-  const bool take_nearest =
-      pair.separation(nearest.normal) >= nearest.gap - doubt || axis.gap < nearest.gap - doubt;
+  // The direction between two vertices at a distance d has an error of about eps size / d. If the shapes are not
+  // separated by d along it, d is not the gap, or the vertices almost touch. In both cases the normal of the edge
+  // separates by the gap, to rounding: a feature at the gap that nearest_features() left out is an edge whose vertex
+  // lies below it by a rounding; and if the true direction is that of the two vertices, the normal of the edge
+  // differs from it by no more than the error.
+  const bool take_nearest = pair.separation(nearest.normal) >= nearest.gap - T(4) * pair.rounding();
   const Axis<Space<2, T>>& best = take_nearest ? nearest : axis;
   return {best, best.gap > margin};
 }
@@ -199,6 +200,26 @@ GjkEnd<T> measure_end(const PolytopePair<Polyhedron<T>>& pair, const Simplex<T>&
           points};
 }
 
+/// The direction between two vertices at a distance d has an error of about eps size / d. It can so point beyond the
+/// normals at the vertices, where another vertex is farther along it. The true direction is then perpendicular to the
+/// edge that leads there, to within the error.
+/// @param axis  of two vertices
+/// @returns the direction, made perpendicular to the edge; unchanged if both vertices are the farthest
+template <std::floating_point T>
+typename Space<3, T>::Vector perpendicular_to_edge(const PolytopePair<Polyhedron<T>>& pair,
+                                                   const Axis<Space<3, T>>& axis) {
+  using Vector = typename Space<3, T>::Vector;
+  const Vector& n = axis.normal;
+  const auto top = pair.support(n);
+  const Vector of_a = pair.a.vertices()[top.a] - pair.a.vertices()[axis.a];
+  const Vector of_b = pair.b.vertices()[top.b] - pair.b.vertices()[axis.b];
+  const Vector edge = n.dot(of_a) > -n.dot(of_b) ? of_a : of_b;
+  const T length2 = edge.squaredNorm();
+  if (!(length2 > T(0))) return n;
+  const Vector turned = n - n.dot(edge) / length2 * edge;
+  return turned.squaredNorm() > T(0.25) ? Vector(turned.normalized()) : n;
+}
+
 /// Step 5: the axis of the nearest points of two polyhedra. The axis `flat` of a face or of two
 /// edges is kept if it has the same gap and nearly the same direction, because the nearest points
 /// then lie on these features. The direction between two points suffers from rounding if the points
@@ -226,6 +247,13 @@ FoundAxis<Space<3, T>> find_nearest_points(const PolytopePair<Polyhedron<T>>& pa
     end.axis = nearest_features(pair, flat.normal, slab);
     if (!std::isfinite(end.axis.gap)) return {flat};
     is_exact = separates(end.axis);
+    if (!is_exact && end.axis.kind == AxisKind::vertices) {
+      end.axis.normal = perpendicular_to_edge(pair, end.axis);
+      is_exact = separates(end.axis);
+    }
+    // The distance of two features is not the gap if an axis separates by more than the direction between them does.
+    if (!is_exact && !(pair.separation(end.axis.normal) > flat.gap))
+      return {flat, flat.gap > margin};
   }
   const T turn = (flat.normal - end.axis.normal).norm();
   const bool is_aligned = turn < DetectionTolerance<T>::aligned &&

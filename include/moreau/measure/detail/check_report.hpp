@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <sstream>
 #include <string>
@@ -31,25 +32,79 @@ struct Findings {
   }
 };
 
+/// A sentence with # in place of each number. A number is as a stream writes it: 12, -0.5, 1e-06.
+[[gnu::cold]] inline std::string without_numbers(const std::string& sentence) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < sentence.size() && sentence[i] >= '0' && sentence[i] <= '9';
+  };
+  const auto is_one_of = [&](std::size_t i, std::string_view letters) {
+    return i < sentence.size() && letters.find(sentence[i]) != std::string_view::npos;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < sentence.size();) {
+    if (!is_digit(i) && !(is_one_of(i, "-") && is_digit(i + 1))) {
+      text += sentence[i++];
+      continue;
+    }
+    text += '#';
+    do ++i;
+    while (is_digit(i) || (is_one_of(i, ".e") && is_digit(i + 1)) ||
+           (is_one_of(i, "e") && is_one_of(i + 1, "+-") && is_digit(i + 2)) ||
+           (is_one_of(i, "+-") && is_one_of(i - 1, "e") && is_digit(i + 1)));
+  }
+  return text;
+}
+
 /// The number 1, 2 or 5 times a power of ten that is at most x, to be typed.
 inline double round_down(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)));
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
-[[gnu::cold]] inline void check_report(Findings& found, const StepReport& report, double size) {
+/// What the advice on an overlap depends on, besides the report.
+struct OverlapScene {
+  double margin = 0;      ///< of detection [m]
+  bool is_first = false;  ///< whether no step was made before
+};
+
+/// Names the deepest overlap, with the advice for its cause:
+///   - in the first step it was there at the start;
+///   - if two surfaces that approach move as far in the step, it arose in the step: an impact;
+///   - else it arose before, in a step that was too long, with a body that was added, or by compliance.
+[[gnu::cold]] inline void check_overlap(Findings& found, const StepReport& report, double size,
+                                        const OverlapScene& scene) {
+  if (!(report.max_overlap > 0.01 * size)) return;
+  const double motion = report.approach * scene.margin;
+  const std::initializer_list<double> numbers = {report.max_overlap, double(report.deepest_a),
+                                                 double(report.deepest_b),
+                                                 report.max_overlap / size};
+  if (scene.is_first)
+    return found.say(
+        "overlap of % m of the bodies % and % at the start, % of the grain size. Add grains that "
+        "do not overlap",
+        numbers);
+  if (report.max_overlap <= motion)
+    return found.say(
+        "overlap of % m of the bodies % and %, % of the grain size: it arose in this step, in "
+        "which surfaces approach by % m. Use a shorter step: half the step halves the overlap",
+        {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
+         report.max_overlap / size, motion});
+  found.say(
+      "overlap of % m of the bodies % and %, % of the grain size: it is older than this step, in "
+      "which no surfaces approach as far. Use a shorter step, stiffer contacts if they are "
+      "compliant, and add no grains inside others",
+      numbers);
+}
+
+[[gnu::cold]] inline void check_report(Findings& found, const StepReport& report, double size,
+                                       const OverlapScene& scene) {
   if (report.approach > 1)
     found.say(
         "step too long: in one step the surfaces of a contact approach by % times the margin; "
         "contacts "
         "can be missed. Use a step % times shorter, or a larger margin (Tolerances::margin)",
         {report.approach, report.approach});
-  if (report.max_overlap > 0.01 * size)
-    found.say(
-        "overlap of % m of the bodies % and %, % of the grain size. Use a shorter step or stiffer "
-        "contacts, or add grains that do not overlap",
-        {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
-         report.max_overlap / size});
+  check_overlap(found, report, size, scene);
   if (report.correction.limited > 0)
     found.say(
         "overlaps so deep that the correction of % contacts was limited to "

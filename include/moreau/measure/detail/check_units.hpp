@@ -16,10 +16,11 @@
 
 namespace moreau::detail {
 
-/// The extremes over the grains and over the laws that are judged.
+/// The extremes over the grains that move freely and over the laws that are judged. Grains whose motion is prescribed
+/// are obstacles: their mass has no effect, and their size can be that of a machine.
 struct Extremes {
   double width = std::numeric_limits<double>::infinity();  ///< smallest circumdiameter [m]
-  /// Of the grain of smallest circumdiameter: the least width of its box in body axes [m].
+  /// Smallest width of the box of a grain in body axes [m]; only if all circumdiameters are far above the grain size.
   double thickness = 0;
   double density = std::numeric_limits<double>::infinity();  ///< smallest [kg/m^3]
   double heaviest = 0;                                       ///< largest density [kg/m^3]
@@ -30,14 +31,12 @@ struct Extremes {
 
 [[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
   const bool earth = of.gravity > 9 && of.gravity<11, grains = of.heaviest> 0;
-  // Of a plate or a stick any length between thickness and diameter will do.
+  // Of a plate or a stick any length between thickness and diameter will do, also among larger grains.
   const bool fits = of.width > 0.2 * size && (of.width < 5 * size || 0.999 * of.thickness <= size);
   if (grains && !fits)
     found.say(
         "grain size % m, but the ball around the smallest grain has a diameter of % m; all "
-        "tolerances are relative "
-        "to the "
-        "grain size",
+        "tolerances are relative to the grain size",
         {size, of.width});
   if (grains && fits && earth && of.width > 4)
     found.say("all grains are wider than % m. If lengths are in mm, divide them by 1000: % m",
@@ -101,22 +100,24 @@ template <class Simulation>
 [[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
   Extremes of;
   of.step = step;
-  std::size_t smallest = 0;
   const auto& bodies = simulation.bodies();
-  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
-    const auto& shape = simulation.shape_of_grain(k);
-    const double density = double(bodies.grain_mass[simulation.grain(k).index()]) /
-                           double(shape.mass_properties(1).mass);
-    if (const double width = 2 * double(circumradius(shape)); width < of.width) {
-      of.width = width;
-      smallest = k;
-    }
+  const auto for_each_judged = [&](const auto& use) {
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
+      if (const std::size_t body = simulation.grain(k).index(); !bodies.is_prescribed(body))
+        use(simulation.shape_of_grain(k), body);
+  };
+  for_each_judged([&](const auto& shape, std::size_t body) {
+    const double density = double(bodies.grain_mass[body]) / double(shape.mass_properties(1).mass);
+    of.width = std::min(of.width, 2 * double(circumradius(shape)));
     of.density = std::min(of.density, density);
     of.heaviest = std::max(of.heaviest, density);
-  }
-  if (of.width >= 5 * double(simulation.grain_size()) && simulation.grain_count() > 0) {
-    const auto box = Placed(simulation.shape_of_grain(smallest)).bounding_box();
-    of.thickness = double((box.upper - box.lower).minCoeff());
+  });
+  if (of.width >= 5 * double(simulation.grain_size())) {
+    of.thickness = of.width;
+    for_each_judged([&](const auto& shape, std::size_t) {
+      const auto box = Placed(shape).bounding_box();
+      of.thickness = std::min(of.thickness, double((box.upper - box.lower).minCoeff()));
+    });
   }
   for (const auto& law : simulation.materials().laws())
     if constexpr (requires {

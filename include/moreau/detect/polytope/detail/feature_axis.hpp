@@ -208,14 +208,41 @@ std::array<typename Space<3, T>::Vector, 2> nearest_points_of(
   return {on_a, point_along(pair.b, b, std::clamp(fraction, T(0), T(1))) + pair.offset};
 }
 
+/// The vector between the nearest points of a vertex and an edge, without its component along the edge, which is a
+/// rounding error if the nearest point lies between the ends of the edge.
+template <std::floating_point T>
+typename Space<3, T>::Vector without_rounding_along_edge(
+    const PolytopePair<Polyhedron<T>>& pair, AxisKind kind, std::uint32_t a, std::uint32_t b,
+    const typename Space<3, T>::Vector& apart) {
+  using Vector = typename Space<3, T>::Vector;
+  if (kind == AxisKind::vertices) return apart;
+  const bool edge_is_of_a = kind == AxisKind::edge_vertex;
+  const auto& shape = edge_is_of_a ? pair.a : pair.b;
+  const std::uint32_t edge = edge_is_of_a ? a : b;
+  const T fraction = fraction_along(shape, edge,
+                                    edge_is_of_a ? Vector(pair.b.vertices()[b] + pair.offset)
+                                                 : Vector(pair.a.vertices()[a] - pair.offset));
+  if (!(fraction > T(0) && fraction < T(1))) return apart;
+  const Vector along = EdgeView<T>(shape, edge).direction;
+  return apart - apart.dot(along) / along.squaredNorm() * along;
+}
+/// For polygons there is nothing to remove: edges count as faces.
+template <std::floating_point T>
+typename Space<2, T>::Vector without_rounding_along_edge(
+    const PolytopePair<Polygon<T>>&, AxisKind, std::uint32_t, std::uint32_t,
+    const typename Space<2, T>::Vector& apart) {
+  return apart;
+}
+
 /// The axis of two vertices, or of a vertex and an edge, of shapes that are apart. Its normal is
 /// the direction from one nearest point to the other, and its gap is their distance.
 template <class ShapeT>
 [[gnu::noinline]] Axis<SpaceOf<ShapeT>> axis_of_nearest(const PolytopePair<ShapeT>& pair,
                                                         AxisKind kind, std::uint32_t a,
                                                         std::uint32_t b) {
+  using Vector = typename SpaceOf<ShapeT>::Vector;
   const auto [on_a, on_b] = nearest_points_of(pair, kind, a, b);
-  const typename SpaceOf<ShapeT>::Vector apart = on_b - on_a;
+  const Vector apart = without_rounding_along_edge(pair, kind, a, b, Vector(on_b - on_a));
   const auto gap = apart.norm();
   return {apart / gap, gap, kind, a, b};
 }
