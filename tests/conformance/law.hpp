@@ -194,6 +194,11 @@ void stateful_law(const Law& law, Normal normal = Normal::signorini) {
   std::normal_distribution<double> any;
   for (std::size_t k = 0; k < Law::variants; ++k)
     CHECK(law.variant_after(k, Vector(Vector::Zero())) < Law::variants);
+  if constexpr (moreau::StaticFrictionLaw<Law, S>)
+    for (std::size_t k = 0; k < Law::variants; ++k) {
+      CHECK(law.variant_at_rest(k) < Law::variants);
+      CHECK(law.variant_at_rest(law.variant_at_rest(k)) == law.variant_at_rest(k));
+    }
   for (int i = 0; i < 2000; ++i) {
     Vector impulse;
     for (auto& x : impulse) x = T(any(random));
@@ -249,6 +254,8 @@ void bridging_law(const Law& law, typename S::Scalar radius) {
       CHECK(Law::with_bridge(with, Law::is_bridged(k)) == k);
       const typename S::Vector push = S::Vector::Unit(0) + S::Vector::Unit(1);
       CHECK(Law::is_bridged(law.variant_after(with, push)) == bridged);
+      if constexpr (moreau::StaticFrictionLaw<Law, S>)
+        CHECK(Law::is_bridged(law.variant_at_rest(with)) == bridged);
     }
 }
 

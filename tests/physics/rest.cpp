@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A packing at rest remains at rest. The same test over twenty seconds is in long/rest.cpp.
 #include "physics/packing.hpp"
+#include "physics/static_friction.hpp"
 #include "sanitized.hpp"
 
 using moreau::Polygon;
@@ -56,4 +57,18 @@ TEST_CASE_TEMPLATE("the gap of a box at rest does not follow the step", ShapeT, 
         CHECK(lowest < 1e-9);
         CHECK(lowest > (height == 0 ? -1e-9 : -1.01 * slop));
       }
+}
+
+TEST_CASE_TEMPLATE("a face that does not slide holds up to its static friction", ShapeT,
+                   Polyhedron<>, Polygon<>) {
+  for (const double lever : {0.0, 0.7})
+    for (const bool islands : {true, false}) {
+      static_friction::Options options;
+      options.lever = lever;
+      options.islands = islands;
+      static_friction::check<ShapeT>(options);
+    }
+  static_friction::Options options;
+  options.incline = true;
+  static_friction::check<ShapeT>(options);
 }

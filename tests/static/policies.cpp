@@ -49,7 +49,7 @@ static_assert(moreau::LaneLaw<moreau::Frictionless<float>, Space<2, float>>);
 static_assert(moreau::LaneLaw<moreau::Cohesive<>, Space<3>>);
 static_assert(moreau::AttractiveLaw<moreau::Cohesive<>, Space<3>>);
 static_assert(!moreau::AttractiveLaw<moreau::SignoriniCoulomb<double>, Space<3>>);
-static_assert(moreau::StatefulLaw<moreau::SignoriniCoulomb<double>, Space<2>>);
+static_assert(moreau::StaticFrictionLaw<moreau::SignoriniCoulomb<double>, Space<2>>);
 static_assert(moreau::RollingLaw<moreau::RollingResistance<double>, Space<3>>);
 static_assert(!moreau::PointLaw<moreau::RollingResistance<double>, Space<3>>);
 static_assert(moreau::RegularizedLaw<moreau::LinearSpringDashpot<double>, Space<3>>);
@@ -65,7 +65,7 @@ static_assert(moreau::ContactSolver<moreau::ColouredGaussSeidel, Rolling, Space<
 static_assert(!moreau::ContactSolver<moreau::NoSolver, moreau::Cohesive<>, Space<3>>);
 
 // A cohesive law has the concepts of the law on which it is based.
-static_assert(moreau::StatefulLaw<moreau::Cohesive<>, Space<3>>);
+static_assert(moreau::StaticFrictionLaw<moreau::Cohesive<>, Space<3>>);
 static_assert(!moreau::StatefulLaw<moreau::Cohesive<moreau::Frictionless<>>, Space<3>>);
 static_assert(moreau::RollingLaw<moreau::Cohesive<Rolling>, Space<3>>);
 static_assert(moreau::AttractiveLaw<moreau::Cohesive<archetypes::MinimalLaw>, Space<3>>);

@@ -163,6 +163,14 @@ class Bridged : public Law {
     else
       return k;
   }
+  /// See StaticFrictionLaw; the bridge stays as it is.
+  std::size_t variant_at_rest(std::size_t k) const
+      requires(requires(const Law& law) { law.variant_at_rest(k); }) {
+    if constexpr (variants_of_law() > 1)
+      return with_bridge(Law::variant_at_rest(k % variants_of_law()), is_bridged(k));
+    else
+      return k;
+  }
 
  protected:
   Bridged() : bridge_(SerializationAccess::blank<Bridge>()) {}  ///< to be read from a snapshot

@@ -176,6 +176,19 @@ concept StatefulLaw = SetValuedLaw<L, S> &&
   L::variants;
 };
 
+/// A stateful law whose friction is larger at a contact that does not slide. An impulse on the cone is no proof of slip: after
+/// variant_after() the simulation gives contacts that do not slide the variant at rest; world/detail/sliding_points.hpp has the
+/// conditions.
+///
+/// - has_static_friction(): whether the variants of contacts that slide and that do not slide differ; false costs nothing
+/// - variant_at_rest(k), k < variants: k if the contact does not slide in variant k, otherwise the variant of the same
+///   contact that does not
+template <class L, class S>
+concept StaticFrictionLaw = StatefulLaw<L, S> && requires(const L law, std::size_t k) {
+  { law.has_static_friction() } -> std::same_as<bool>;
+  { law.variant_at_rest(k) } -> std::same_as<std::size_t>;
+};
+
 /// The number of variants of a law: 1 of a law that is not stateful.
 template <class L, class S>
 constexpr std::size_t variants_of() {

@@ -24,7 +24,7 @@
 namespace moreau {
 
 /// Signorini's condition with Coulomb friction and Newton's restitution for one pair of materials.
-/// Model of LaneLaw and StatefulLaw.
+/// Model of LaneLaw and StaticFrictionLaw.
 template <std::floating_point T = double>
 class SignoriniCoulomb {
  public:
@@ -35,11 +35,15 @@ class SignoriniCoulomb {
   /// @throws std::invalid_argument outside these ranges
   explicit SignoriniCoulomb(T friction = T(0), T restitution = T(0))
       : SignoriniCoulomb(friction, restitution, friction) {}
-  /// A law with static friction.
-  /// @param friction        mu >= 0 if the contact slid in the step before [-]. With 0, a contact that slides
-  ///                        does so until it opens
+  /// A law with static friction. Friction acts at each contact point. A point has the friction in slip if it slid in
+  /// the step before: its impulse lay on its cone, its tangential velocity at the end of the step exceeded what the
+  /// solver's criterion leaves, and so did those of the other points of its face that pushed; in space one of
+  /// them may rest, about which the face then turns. So a face that does not slide has the static friction at all its
+  /// points, and its resultant has the threshold static_friction, however its points share the load
+  /// (world/detail/sliding_points.hpp).
+  /// @param friction        mu >= 0 of a contact that slid in the step before [-]
   /// @param restitution     e in [0, 1] [-]
-  /// @param static_friction mu >= friction if the contact is new, or was stuck or open in the step before [-]
+  /// @param static_friction mu >= friction of a contact that is new, or that did not slide in the step before [-]
   /// @throws std::invalid_argument outside these ranges
   SignoriniCoulomb(T friction, T restitution, T static_friction)
       : friction_(friction), restitution_(restitution), static_(static_friction) {
@@ -96,8 +100,8 @@ class SignoriniCoulomb {
   SignoriniCoulomb variant(std::size_t k) const {
     return SignoriniCoulomb(k == 0 ? static_ : friction_, restitution_);
   }
-  /// See StatefulLaw: the contact slid if its impulse [N s] lies on the cone of variant k. Always 0 if
-  /// static and kinetic friction are equal.
+  /// See StatefulLaw: 1 if the impulse [N s] lies on the cone of variant k, without which a contact does not slide. Always
+  /// 0 if static and kinetic friction are equal.
   template <class Vector>
   std::size_t variant_after(std::size_t k, const Vector& impulse) const {
     if (static_ == friction_ || !(impulse[0] > T(0))) return 0;
@@ -105,6 +109,11 @@ class SignoriniCoulomb {
     const T limit = (k == 0 ? static_ : friction_) * impulse[0];
     return length >= limit * (T(1) - std::sqrt(std::numeric_limits<T>::epsilon())) ? 1 : 0;
   }
+
+  /// See StaticFrictionLaw.
+  bool has_static_friction() const { return static_ != friction_; }
+  /// See StaticFrictionLaw.
+  std::size_t variant_at_rest(std::size_t) const { return 0; }
 
   /// See LaneLaw: the friction [-].
   std::array<T, 1> lane_parameters() const { return {friction_}; }

@@ -5,6 +5,7 @@
 #include "moreau/solve/proximal_fallback.hpp"
 
 #include "physics/standing.hpp"
+#include "physics/static_friction.hpp"
 
 using moreau::Polygon;
 using moreau::Polyhedron;
@@ -76,5 +77,41 @@ TEST_CASE_TEMPLATE("structures stand with the default options in single precisio
     masonry::check_stands_by_default(masonry::wall<ShapeT>(3, 4), h, count);
     masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
                                      count);
+  }
+}
+
+TEST_CASE_TEMPLATE("faces hold up to their static friction", ShapeT, Polyhedron<>, Polygon<>,
+                   Polyhedron<float>, Polygon<float>) {
+  for (const double step : {1e-2, 1e-3, 1e-4, 1e-5})
+    for (const bool incline : {false, true})
+      for (const bool islands : {true, false})
+        for (const double height : {0.05, 0.02}) {
+          static_friction::Options options;
+          options.step = step;
+          options.rate = std::min(0.5, 1e-3 / step);
+          options.incline = incline;
+          options.islands = islands;
+          options.height = height;
+          static_friction::check<ShapeT>(options);
+        }
+  for (const int corners : {3, 4, 5, 6, 8})
+    for (const double azimuth : {0.1, 0.6})
+      for (const double lever : {-0.7, 0.0, 0.7})
+        for (const bool islands : {true, false})
+          for (const bool few : {false, true}) {
+            if (moreau::SpaceOf<ShapeT>::dim == 2 && (corners > 3 || azimuth > 0.1)) continue;
+            static_friction::Options options;
+            options.corners = corners;
+            options.azimuth = moreau::SpaceOf<ShapeT>::dim == 3 ? azimuth : 0;
+            options.lever = lever;
+            options.islands = islands;
+            options.few = few;
+            static_friction::check<ShapeT>(options);
+          }
+  for (const double tolerance : {1e-3, 1e-5, 1e-6, 1e-8}) {
+    static_friction::Options options;
+    options.tolerance = tolerance;
+    options.islands = false;
+    static_friction::check<ShapeT>(options);
   }
 }

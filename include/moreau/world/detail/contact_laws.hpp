@@ -11,16 +11,19 @@
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/closing_contacts.hpp"
 #include "moreau/world/detail/restitution_limit.hpp"
+#include "moreau/world/detail/sliding_points.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
 namespace moreau::detail {
@@ -83,16 +86,25 @@ class ContactLaws {
                })
         .value;
   }
-  /// Chooses the variants of the next step, from impulses that still are those of the laws.
+  /// Chooses the variants of the next step, from impulses that still are rows of the operator and those of the laws.
+  /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of the impulses
+  /// @param shared   bodies that other processes share; null: none
   template <
       class Contacts>  // clang would instantiate a function that is no template with the class
-  void choose_variants(const Materials<Law>& materials, Contacts& contacts) const {
-    if constexpr (stateful)
-      for (std::size_t c = 0; c < contacts.size(); ++c) {
-        std::uint32_t& variant = contacts.variants[c];
-        variant = static_cast<std::uint32_t>(materials.laws()[contacts.points[c].law].variant_after(
-            variant, Vector(contacts.impulse(c))));
-      }
+  void choose_variants([[maybe_unused]] const Problem& problem, const Materials<Law>& materials,
+                       Contacts& contacts, [[maybe_unused]] double accuracy,
+                       [[maybe_unused]] SharedBodies* shared) const {
+    if constexpr (stateful) {
+      const std::span<const Law> laws(materials.laws());
+      for (std::size_t c = 0; c < contacts.size(); ++c)
+        contacts.variants[c] =
+            static_cast<std::uint32_t>(laws[contacts.points[c].law].variant_after(
+                contacts.variants[c], Vector(contacts.impulse(c))));
+      if constexpr (StaticFrictionLaw<Law, S>)
+        if (std::any_of(laws.begin(), laws.end(),
+                        [](const Law& law) { return law.has_static_friction(); }))
+          hold(problem, laws, contacts, accuracy, shared);
+    }
   }
 
   /// Relative velocity of each contact before the step, with that of the cell, contact frame [m/s].
@@ -111,6 +123,18 @@ class ContactLaws {
     void add(const Largest& other) { value = std::max(value, other.value); }
   };
 
+  /// Gives the contacts that do not slide the variant at rest.
+  template <class Contacts>
+  MOREAU_COLD static void hold(const Problem& problem, std::span<const Law> laws,
+                               Contacts& contacts, double accuracy, SharedBodies* shared) {
+    const SlidingPoints<Operator, Law> points(problem, contacts.impulses, accuracy, shared);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const std::size_t now = contacts.variants[c],
+                        rest = laws[contacts.points[c].law].variant_at_rest(now);
+      if (now != rest && !points.slides(contacts, c))
+        contacts.variants[c] = static_cast<std::uint32_t>(rest);
+    }
+  }
   /// Index into the table of laws.
   static std::uint32_t law_of(const ContactsOf<Law, S>& contacts, std::size_t c) {
     const std::uint32_t law = contacts.points[c].law;

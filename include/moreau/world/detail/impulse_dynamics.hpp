@@ -17,6 +17,7 @@
 //  11. advance_configuration(): to the end of the step
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -276,7 +277,8 @@ class ImpulseDynamics {
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
     if constexpr (bonding)
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
-    laws_.choose_variants(context.materials, context.contacts);
+    laws_.choose_variants(problem_, context.materials, context.contacts,
+                          std::max(solver_tolerance(), report.solve.residual), shared_.get());
     attraction_.take_from(impulses);
     problem_.delassus.from_rows(impulses, team_);
   }
