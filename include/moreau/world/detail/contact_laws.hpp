@@ -100,10 +100,7 @@ class ContactLaws {
         contacts.variants[c] =
             static_cast<std::uint32_t>(laws[contacts.points[c].law].variant_after(
                 contacts.variants[c], Vector(contacts.impulse(c))));
-      if constexpr (StaticFrictionLaw<Law, S>)
-        if (std::any_of(laws.begin(), laws.end(),
-                        [](const Law& law) { return law.has_static_friction(); }))
-          hold(problem, laws, contacts, accuracy, shared);
+      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, accuracy, shared);
     }
   }
 
@@ -123,10 +120,13 @@ class ContactLaws {
     void add(const Largest& other) { value = std::max(value, other.value); }
   };
 
-  /// Gives the contacts that do not slide the variant at rest.
+  /// Gives the contacts that do not slide the variant at rest, if a law has static friction.
   template <class Contacts>
   MOREAU_COLD static void hold(const Problem& problem, std::span<const Law> laws,
                                Contacts& contacts, double accuracy, SharedBodies* shared) {
+    if (std::none_of(laws.begin(), laws.end(),
+                     [](const Law& law) { return law.has_static_friction(); }))
+      return;
     const SlidingPoints<Operator, Law> points(problem, contacts.impulses, accuracy, shared);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const std::size_t now = contacts.variants[c],

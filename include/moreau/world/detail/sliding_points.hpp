@@ -31,9 +31,9 @@
 #include <span>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
@@ -51,19 +51,20 @@ class SlidingPoints {
   /// @param impulses rows of the operator, one per contact
   /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of these impulses
   /// @param shared   bodies that other processes share: all processes call this; null: none
-  SlidingPoints(const Problem& problem, std::span<const Row> impulses, double accuracy,
-                SharedBodies* shared)
+  MOREAU_INLINED SlidingPoints(const Problem& problem, std::span<const Row> impulses,
+                               double accuracy, SharedBodies* shared)
       : problem_(problem),
         impulses_(impulses),
         rest_speed_(rest_speed(problem.delassus, impulses, accuracy, shared)) {}
 
   /// Conditions 2 and 3.
   /// @param contacts those of the problem
-  bool slides(const DetectedContacts<S>& contacts, std::size_t c) const {
+  MOREAU_INLINED bool slides(const DetectedContacts<S>& contacts, std::size_t c) const {
     if (rests(c)) return false;
-    const std::size_t first = first_of_pair(contacts, c), last = end_of_pair(contacts, first);
     std::size_t resting = 0;
-    for (std::size_t other = first; other < last; ++other)
+    for (std::size_t other = first_of_pair(contacts, c);
+         other < contacts.size() && contacts.keys[other].bodies() == contacts.keys[c].bodies();
+         ++other)
       resting += impulses_[other][0] > 0 && in_one_plane(contacts, c, other) && rests(other);
     return resting <= pivots;
   }
@@ -72,26 +73,29 @@ class SlidingPoints {
   static constexpr bool springs = requires(const Operator op) { op.compliance(std::size_t()); };
   static constexpr std::size_t pivots = S::dim == 3 && !springs ? 1 : 0;
 
-  static double rest_speed(const Operator& op, std::span<const Row> impulses, double accuracy,
-                           SharedBodies* shared) {
-    double sums[] = {0, 0};  // |r|^2, N
-    for (const Row& impulse : impulses) {
-      sums[0] += impulse.template cast<double>().squaredNorm();
-      sums[1] += impulse[0] != 0;
+  MOREAU_INLINED static double rest_speed(const Operator& op, std::span<const Row> impulses,
+                                          double accuracy, SharedBodies* shared) {
+    double sums[] = {0, 0, 0, 0};  // |r|^2, N, trace of W, rows of W
+    for (std::size_t c = 0; c < op.size(); ++c) {
+      sums[0] += impulses[c].template cast<double>().squaredNorm();
+      sums[1] += impulses[c][0] != 0;
+      sums[2] += double(op.trace(c));
+      sums[3] += double(Row::RowsAtCompileTime);
     }
-    const double scale = mean_diagonal(op, shared);
     if (shared) shared->sum(sums);
+    const double scale = sums[2] / std::max(sums[3], 1.0);
     const double rounding = std::sqrt(double(std::numeric_limits<Scalar>::epsilon()));
     const double rho = std::max({accuracy, 1e-4, rounding});
     return std::min(std::sqrt(sums[1]), 3.0) * rho * scale *
            std::sqrt(sums[0] / std::max(sums[1], 1.0));
   }
   /// Whether the normals of two contacts are equal to rounding.
-  static bool in_one_plane(const DetectedContacts<S>& contacts, std::size_t c, std::size_t other) {
+  MOREAU_INLINED static bool in_one_plane(const DetectedContacts<S>& contacts, std::size_t c,
+                                          std::size_t other) {
     const Scalar along = contacts.points[c].frame.col(0).dot(contacts.points[other].frame.col(0));
     return along > 1 - std::sqrt(std::numeric_limits<Scalar>::epsilon());
   }
-  bool rests(std::size_t c) const {
+  MOREAU_INLINED bool rests(std::size_t c) const {
     const Row u = problem_.delassus.velocity(c);
     double squared = 0;
     for (int t = 1; t < S::dim; ++t) squared += double(u[t]) * double(u[t]);
