@@ -71,7 +71,7 @@ class SlidingPoints {
 
  private:
   static constexpr bool springs = requires(const Operator op) { op.compliance(std::size_t()); };
-  static constexpr std::size_t pivots = S::dim == 3 && !springs ? 1 : 0;
+  static constexpr std::size_t pivots = springs ? 0 : S::dim - 2;
 
   MOREAU_INLINED static double rest_speed(const Operator& op, std::span<const Row> impulses,
                                           double accuracy, SharedBodies* shared) {
