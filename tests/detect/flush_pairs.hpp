@@ -343,7 +343,9 @@ void check_pairs(int count, unsigned seed) {
     worst.take(errors(a, b, manifold));
   }
   CAPTURE(sizeof(T));
-  CHECK(worst.gap < 128);  // 8 times DetectionTolerance::rounding
+  // The promise is about 60. Polyhedra apart by a corner, which a face separates by less than a rounding, pass for
+  // touching at a few times that (contacts.md).
+  CHECK(worst.gap < (dim == 2 ? 128 : 256));
   CHECK(worst.normal < 128);
   CHECK(worst.deeper < 128);
   CHECK(worst.point < 128);

@@ -134,10 +134,11 @@ TEST_CASE("check: a grain inside another") {
 TEST_CASE("check: an overlap of an impact asks for a shorter step, not for other grains") {
   World world(0.1, Materials<Law>(1, Law(0.3, 0.5)));
   world.add_wall({0, 0, 1}, {0, 0, 0});
-  const ShapeId shape = world.add_shape(cuboid<Polyhedron<>>({0.1, 0.1, 0.1}));
+  const ShapeId shape = world.add_shape(cuboid<Polyhedron<>>({0.05, 0.05, 0.05}));
   bool arose = false;
   for (int k = 0; k < 20; ++k) {  // from other heights: the floor lies at other parts of a step
-    const BodyId grain = world.add_grain(shape, Pose<Space<3>>({0.3 * k, 0, 0.1 + 1e-4 * k}), 1000);
+    const BodyId grain =
+        world.add_grain(shape, Pose<Space<3>>({0.3 * k, 0, 0.05 + 1e-4 * k}), 1000);
     world.set_velocity(grain, {0, 0, -1.9});
   }
   for (const std::string& sentence : run(world, 1e-3, 100)) {
@@ -172,9 +173,9 @@ TEST_CASE("check: an obstacle is not judged by its density or size") {
 TEST_CASE("check: a plank among large grains allows its thickness as the grain size") {
   for (const double size : {0.02, 0.01}) {
     World world(size, Materials<Law>(1, Law(0.5)));
-    const ShapeId large = world.add_shape(cuboid<Polyhedron<>>({0.15, 0.15, 0.15}));
+    const ShapeId large = world.add_shape(cuboid<Polyhedron<>>({0.075, 0.075, 0.075}));
     world.add_grain(large, Pose<Space<3>>({0.2, 0, 0.1}), 2700);
-    world.add_grain(world.add_shape(cuboid<Polyhedron<>>({0.8, 0.1, 0.02})),
+    world.add_grain(world.add_shape(cuboid<Polyhedron<>>({0.4, 0.05, 0.01})),
                     Pose<Space<3>>({-0.4, 0, 0.1}), 700);
     world.add_wall({0, 0, 1}, {0, 0, 0});
     world.set_gravity({0, 0, -9.81});
