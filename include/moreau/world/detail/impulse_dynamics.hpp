@@ -28,6 +28,7 @@
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/warm_start.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/law/concepts.hpp"
@@ -231,7 +232,7 @@ class ImpulseDynamics {
     const auto carry_by = [&](const auto& turn) {
       const std::size_t found =
           carry(before, context.contacts, before.impulses, context.contacts.impulses, turn, team_);
-      hand_over(before, context.contacts, turn);
+      if (found < before.size()) hand_over(before, context.contacts, turn);
       return found;
     };
     if constexpr (compliant)
@@ -258,7 +259,7 @@ class ImpulseDynamics {
     return report;
   }
 
-  void solve(const Context& context, StepReport& report) {
+  MOREAU_INLINED void solve(const Context& context, StepReport& report) {
     const std::span<Row> impulses(context.contacts.impulses);
     solve_problem(context, report);
     if constexpr (bonding)
@@ -270,6 +271,7 @@ class ImpulseDynamics {
       laws_.limit().apply(
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
           RestitutionLimit<S, Law>::negligible_velocity(context.grain_size, context.step),
+          bodies_alone(context) ? std::span<const Twist>(free_) : std::span<const Twist>(),
           report.solve);
     if (cell_.moves(context)) cell_.leave(context, problem_.delassus);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
@@ -289,6 +291,10 @@ class ImpulseDynamics {
       return solver_.options().tolerance;
     else
       return 0;
+  }
+  /// Whether the relative velocities of contacts without impulses are those of free_, but for the offsets of the laws.
+  static bool bodies_alone(const Context& context) {
+    return !AttractiveLaw<Law, S> && context.chords.empty() && !context.deforms();
   }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {

@@ -31,6 +31,10 @@
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
 //
+// Without restitution and with walls at rest, the sum of G over the islands is the change of the kinetic energies of the
+// bodies, sum of d . M (2 v_f + d) / 2 with the velocities v_f without the impulses and v_f + d with them. If no body gains
+// energy, as in a packing at rest, no island does: then the contacts are not visited.
+//
 // A tangential restitution (law/tangential_restitution.hpp) is a part of the restitution: r_0 has neither.
 //
 // Springs (law/compliant.hpp) store energy. Let c be the compliance of a contact over h^2, s the impulse that
@@ -95,13 +99,15 @@ class RestitutionLimit {
   /// @param springs          of the contacts: their relaxation(c) and energy_before(c)
   /// @param solver,workspace solve the problem without restitution, if it is needed
   /// @param negligible       velocity at which the impulses add energy that does not count, see negligible_velocity() [m/s]
+  /// @param free             v_f of every body, if the contacts see these velocities alone; empty: nothing is known
   /// @param report           of the problem with restitution; becomes that of both
   void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
              const auto& springs, const auto& solver, auto& workspace, Scalar negligible,
-             SolveReport& report) {
+             std::span<const typename S::Twist> free, SolveReport& report) {
     bounces_ = bounces();
-    if (!bounces_ && !dissipates) return;
+    if (!bounces_ && (!dissipates || all_lose(bodies, problem, free))) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
+    bouncing_.resize(impulses.size());
     islands_.resize(bodies.size());
     if (sets_.size() != bodies.size()) sets_.assign(bodies.size());
     negligible_ = negligible;
@@ -169,6 +175,30 @@ class RestitutionLimit {
       any = any ||
             std::any_of(aside_.begin(), aside_.end(), [](const Row& x) { return !x.isZero(0); });
     return any;
+  }
+  /// Whether no body gains kinetic energy by the impulses; false if that is not known. The energy of the rotation is
+  /// bounded by the norm of the inertia.
+  static bool all_lose(const Bodies<S>& bodies, const Problem& problem,
+                       std::span<const typename S::Twist> free) {
+    if (free.empty() || problem.delassus.has_cell()) return false;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      if (bodies.is_prescribed(i)) {
+        if (!free[i].isZero(0)) return false;
+        continue;
+      }
+      const typename S::Twist change = problem.delassus.velocity_change(i);
+      if (change.isZero(0)) continue;
+      const InverseMass<S>& mass = problem.delassus.inverse_mass(i);
+      if (!bodies.rotates(i) || !mass.is_isotropic() || !(bodies.grain_mass[i] > 0)) return false;
+      typename S::Twist sum;
+      for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
+      const double along = double(linear<S>(change).dot(linear<S>(sum))),
+                   about = double(angular<S>(change).norm()) * double(angular<S>(sum).norm());
+      if (!(double(bodies.grain_mass[i]) * along + double(bodies.inertia_body[i].norm()) * about <=
+            0))
+        return false;
+    }
+    return true;
   }
   /// @param without share of the restitution that the operator lacks, 0 or 1
   void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
@@ -270,7 +300,7 @@ class RestitutionLimit {
     return change > 0 ? change / largest : 0;
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
-  bool gains(const Bodies<S>& bodies, const Problem& problem) {
+  MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
     if (std::none_of(bouncing_.begin(), bouncing_.end(),
                      [](const State& state) { return state.gain > 0; }))
       return false;
