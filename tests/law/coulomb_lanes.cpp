@@ -103,6 +103,33 @@ TEST_CASE_TEMPLATE("alpha remembered from another velocity does no harm", S,
   CHECK(last < 1e4 * double(std::numeric_limits<T>::epsilon()));
 }
 
+TEST_CASE_TEMPLATE("the natural map of a lane is that of the law", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
+  using T = typename S::Scalar;
+  std::mt19937_64 random(14);
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Lanes<S> lanes(random, T(1));
+    auto r = lanes.visit(i % 2 == 0);
+    if (i % 3 == 0)
+      for (auto& row : r) row *= T(2);  // outside of the cone, or none if the contact is open
+    if (i % 5 == 0) lanes.velocity = {};
+    const auto map = detail::CoulombLanes<S>::natural_map(lanes.velocity, r, lanes.friction);
+    for (std::size_t l = 0; l < Lanes<S>::count; ++l) {
+      typename S::Vector u, own, of_lane;
+      for (std::size_t d = 0; d < S::dim; ++d) {
+        u[Eigen::Index(d)] = lanes.velocity[d][l];
+        own[Eigen::Index(d)] = r[d][l];
+        of_lane[Eigen::Index(d)] = map[d][l];
+      }
+      const auto one = SignoriniCoulomb<T>(lanes.frictions[l]).natural_map(u, own);
+      const double size = double((1 + lanes.frictions[l]) * (u.norm() + own.norm()));
+      if (size > 0) worst = std::max(worst, double((of_lane - one).norm()) / size);
+    }
+  }
+  CHECK(worst < 8 * double(std::numeric_limits<T>::epsilon()));
+}
+
 TEST_CASE("a polished impulse that slips lies on the cone to the last digit") {
   std::mt19937_64 random(13);
   int slips = 0;

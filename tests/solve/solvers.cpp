@@ -81,7 +81,14 @@ TEST_CASE_TEMPLATE("LMGC90's test ends the sweeps, and the residual is told all 
       CHECK(report.converged);
       CHECK(passes_qm16(report, tolerance));
       CHECK(report.sweeps >= sweeps);
-      CHECK(problem.measure(impulses).residual == doctest::Approx(report.residual).epsilon(1e-6));
+      const SolveReport measured = problem.measure(impulses);
+      CHECK(measured.residual == doctest::Approx(report.residual).epsilon(1e-6));
+      CHECK(measured.relative_approach == doctest::Approx(report.relative_approach).epsilon(1e-6));
+      CHECK(measured.worst_velocity == doctest::Approx(report.worst_velocity).epsilon(1e-6));
+      CHECK(measured.worst_complementarity ==
+            doctest::Approx(report.worst_complementarity).epsilon(1e-6));
+      CHECK(std::abs(measured.worst_cone - report.worst_cone) <= 1e-12);
+      CHECK(std::abs(measured.wrong_sign_dissipation - report.wrong_sign_dissipation) <= 1e-12);
       sweeps = report.sweeps;
     }
     options.tolerance = 1e-12;

@@ -43,7 +43,7 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
 /// Optional: see ActsWhereGapsClose, AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, CoulombLaw,
-/// TangentialRestitutionLaw, StatefulLaw, LaneLaw.
+/// TangentialRestitutionLaw, StatefulLaw, LaneLaw, MapsLanes.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -221,6 +221,18 @@ concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<
                               std::tuple_size_v<decltype(law.lane_parameters())>>{},
                    memory, true)
     } -> std::same_as<typename LaneBlockOf<L, S>::Vector>;
+};
+
+/// A LaneLaw that is Coulomb's, with natural_map() of one contact per lane:
+///
+/// - natural_map_lanes<S>(u, r, parameters): in every lane natural_map(u, r)
+template <class L, class S>
+concept MapsLanes = LaneLaw<L, S> && CoulombLaw<L, S> &&
+    requires(const L law, const typename LaneBlock<S>::Vector vector) {
+  L::template natural_map_lanes<S>(
+      vector, vector,
+      std::array<typename LaneBlock<S>::Values,
+                 std::tuple_size_v<decltype(law.lane_parameters())>>{});
 };
 
 }  // namespace moreau

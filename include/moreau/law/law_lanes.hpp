@@ -56,6 +56,9 @@ class LawLanes<Law, S> {
   Vector solve(const Block& block, const Vector& b, const Vector& guess, bool polish) {
     return Law::solve_lanes(block, b, guess, parameters_, memory_, polish);
   }
+  Vector natural_map(const Vector& u, const Vector& r) const requires MapsLanes<Law, S> {
+    return Law::template natural_map_lanes<S>(u, r, parameters_);
+  }
 
  private:
   using Parameters = decltype(std::declval<const Law&>().lane_parameters());

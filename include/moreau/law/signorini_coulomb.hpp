@@ -126,6 +126,13 @@ class SignoriniCoulomb {
       typename LaneBlock<S>::Values& memory, bool polish) {
     return detail::CoulombLanes<S>::solve(block, b, parameters[0], memory, polish);
   }
+  /// See LaneLaw.
+  template <class S>
+  static typename LaneBlock<S>::Vector natural_map_lanes(
+      const typename LaneBlock<S>::Vector& u, const typename LaneBlock<S>::Vector& r,
+      const std::array<typename LaneBlock<S>::Values, 1>& parameters) {
+    return detail::CoulombLanes<S>::natural_map(u, r, parameters[0]);
+  }
 
   /// r - P_K(r - (u + mu |u_t| n)), K the Coulomb cone. Zero iff (u, r) satisfies the law
   /// (G. De Saxce and Z.-Q. Feng, Math. Comput. Modelling 28 (1998) 225).

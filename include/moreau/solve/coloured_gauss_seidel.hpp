@@ -293,8 +293,8 @@ class ColouredGaussSeidel {
                std::span<typename Operator::Vector> impulses,
                detail::ColouredSweeps<Operator, Law>& sweeps, SolveReport& report) const {
     sweeps.finish(problem.delassus, impulses, team_);
-    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_,
-                     shared_.get());
+    sweeps.measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report,
+                            team_);
   }
 
   Options options_;

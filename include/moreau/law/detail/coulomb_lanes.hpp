@@ -71,6 +71,27 @@ class CoulombLanes {
     return r;
   }
 
+  /// SignoriniCoulomb::natural_map() in every lane.
+  static Vector natural_map(const Vector& u, const Vector& r, const Values& friction) {
+    const Values zero{};
+    Vector x;
+    x[0] = r[0] - u[0];
+    Values slip2{}, length2{};
+    for (Index t = 1; t <= tangents; ++t) {
+      x[t] = r[t] - u[t];
+      slip2 += u[t] * u[t];
+      length2 += x[t] * x[t];
+    }
+    x[0] -= friction * Lanes::square_root(slip2);
+    const Values length = Lanes::square_root(length2);
+    const Values normal = (x[0] + friction * length) / (T(1) + friction * friction);
+    const Indices inside = length <= friction * x[0], none = friction * length <= -x[0];
+    const Values share = inside ? Lanes::broadcast(1) : friction * normal / length;
+    x[0] = r[0] - (none ? zero : inside ? x[0] : normal);
+    for (Index t = 1; t <= tangents; ++t) x[t] = r[t] - (none ? zero : share * x[t]);
+    return x;
+  }
+
  private:
   static constexpr bool exact = std::same_as<Lanes, OneNumber<T>>;
   static constexpr bool fine = std::numeric_limits<T>::epsilon() < T(1e-10);

@@ -46,6 +46,18 @@ class ColouredSweeps {
     kernel_.set_impulses(op, impulses, team, shared_);
     acceleration_.interrupt();
   }
+  /// measure_residual() after finish().
+  void measure_residual(const ContactProblem<Operator, Law>& problem,
+                        std::span<const Impulse> impulses, SolveReport& report, const Team& team) {
+    if constexpr (MapsLanes<Law, S>)
+      if (!problem.delassus.has_cell()) {
+        auto sums = kernel_.residual(mean_diagonal(problem.delassus, shared_), team);
+        if (shared_) sums.add_up(*shared_);
+        sums.write(report);
+        return;
+      }
+    moreau::measure_residual(problem, impulses, report, team, shared_);
+  }
   /// Saves the impulses.
   void save(const Team& team) {
     const auto& points = kernel_.points();

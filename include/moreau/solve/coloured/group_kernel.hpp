@@ -11,6 +11,7 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_cell.hpp"
+#include "moreau/solve/coloured/lane_residual.hpp"
 #include "moreau/solve/coloured/lane_velocities.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/sweep_change.hpp"
@@ -72,6 +73,15 @@ class GroupKernel {
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     contacts_.unpack(impulses, team);
+  }
+  /// The sums of measure_residual() after set_impulses(), without a cell that moves by its stress.
+  /// @param scale makes velocities of impulses [1/kg]
+  ResidualSums<Operator, Law> residual(double scale,
+                                       const Team& team) const requires MapsLanes<Law, S> {
+    return sum_of<LaneResidual<Points>>(
+               team, contacts_.groups.size(),
+               [&](LaneResidual<Points>& sum, std::size_t k) { add_residual(sum, k, T(scale)); })
+        .template sums<ResidualSums<Operator, Law>>(scale);
   }
 
   const std::vector<Group>& groups() const { return contacts_.groups; }
@@ -247,6 +257,18 @@ class GroupKernel {
       some |= u < Values{};
     }
     return Lanes::any(some);
+  }
+
+  MOREAU_INLINED void add_residual(LaneResidual<Points>& sum, std::size_t number, T scale) const {
+    const Group& group = contacts_.groups[number];
+    const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    for (const Points& point : points_of(group, group.count)) {
+      const Vector between = relative(point, a, b);
+      Row u = point.free;
+      for (std::size_t k = 0; k < S::dim; ++k)
+        for (std::size_t d = 0; d < S::dim; ++d) u[d] += point.frame[k][d] * between[k];
+      sum.add(point, u, scale);
+    }
   }
 
   /// Solves the first `count` contacts of each pair in the group, one after the other.
