@@ -7,9 +7,8 @@
 namespace validation {
 
 /// On a floor with acceleration a, a ball that is pressed on the floor by N rolls without slip iff
-/// a <= (1 + 1/k) mu_s N/m, k = I/(m R^2). A ball that slips has the acceleration mu N/m. (Blocks
-/// cannot measure mu_s: which of their contact points lies on its cone is not unique, and a point
-/// that slips has less friction from then on.)
+/// a <= (1 + 1/k) mu_s N/m, k = I/(m R^2). A ball that slips has the acceleration mu N/m. (tests/physics/static_friction.hpp
+/// has blocks.)
 /// @param press N relative to the weight; an adhesion contributes to N
 template <class ShapeT, class Law>
 void static_friction_of(Record& record, const std::string& name, const Law& law, double press) {
