@@ -536,6 +536,76 @@ TEST_CASE_TEMPLATE("a rod beside a wavy wall with two sides has no contact with 
 
 namespace {
 
+/// A pass between two ridges that rise along x and -x, with valleys along y and -y: nothing can touch its lowest point as
+/// a tip. With `turned` > 0 one of the valleys is a third ridge, that falls.
+FacetMesh<Space<3>> pass(double rise, std::uint32_t turned, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.7, 1.3);
+  FacetMesh<Space<3>> mesh{{Space<3>::Vector::Zero()}, {}};
+  const std::uint32_t count = 4 + turned;
+  const std::array<double, 5> four{0, 90, 180, 270, 0}, five{0, 70, 110, 180, 270};
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double angle = (turned > 0 ? five : four)[k] * std::numbers::pi / 180;
+    const double slope = std::abs(std::cos(angle)) > 0.9 ? rise : -0.8;
+    mesh.vertices.push_back(
+        {0.04 * std::cos(angle), 0.04 * std::sin(angle), 0.04 * slope * uniform(random)});
+    mesh.facets.push_back({0, 1 + k, 1 + (k + 1) % count});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+// The edge of a rod in a pass lies on two ridges. If it overlaps both, the nearest points on their lines can lie beyond
+// their common end.
+TEST_CASE(
+    "a rod that lies in a pass between two ridges touches both, also beyond their common end") {
+  using S = Space<3>;
+  using Vector = S::Vector;
+  using Rod = Polyhedron<>;
+  const Rod rod = cuboid<Rod>(Vector(0.001, 0.015, 0.001));
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const WallSides sides : {WallSides::outside, WallSides::both})
+    for (const double rise : {0.05, 0.3, 0.6}) {
+      int poses = 0, missing = 0, too_deep = 0, beyond = 0;
+      for (int k = 0; k < 20 * approaches; ++k) {
+        const MeshWall<S> wall(pass(rise, k % 2, random), sides);
+        const S::Rotation turn = S::exp(Vector(0, 0, 0.4 * uniform(random))) *
+                                 S::exp(Vector(0.2 * uniform(random), 0, 0)) *
+                                 S::exp(Vector(0, std::numbers::pi / 4 + 0.1 * uniform(random), 0));
+        Placed<Rod> shape(rod, {Vector::Zero(), turn});
+        // The lower edge passes below the pass, by `way`.
+        std::size_t lowest = 0;
+        for (std::size_t v = 0; v < shape.vertices().size(); ++v)
+          if (shape.vertices()[v][2] < shape.vertices()[lowest][2]) lowest = v;
+        const Vector edge = turn * Vector(0, shape.vertices()[lowest][1] > 0 ? -0.03 : 0.03, 0);
+        const Vector on_edge = shape.vertices()[lowest] + (0.5 + 0.2 * uniform(random)) * edge;
+        const double way = std::array{1e-6, 1e-5, 5e-5}[std::size_t(k) % 3];
+        shape.move_to(Vector(0.3 * way * uniform(random), 0, -way) - on_edge);
+        const double gap = union_gap(wall, shape, margin);
+        if (gap > -0.1 * way) continue;
+        ++poses;
+        const auto found = contacts(shape, wall, margin);
+        double right = 1, left = 1;
+        for (const auto& contact : found) {
+          (contact.normal[0] < 0 ? right : left) =
+              std::min(contact.normal[0] < 0 ? right : left, contact.gap);
+          too_deep += contact.gap < -1.1 * way;
+          beyond += contact.gap < 0 && !contact.is_of_face;
+        }
+        missing += !(right < -0.1 * way) || !(left < -0.1 * way);
+      }
+      CAPTURE(int(sides));
+      CAPTURE(rise);
+      CHECK(poses > 10 * approaches);
+      CHECK(missing == 0);
+      CHECK(too_deep == 0);
+      CHECK(beyond > 0);
+    }
+}
+
+namespace {
+
 /// Whether a vertex of a wall lies in a shape, deeper than `depth` below each of its faces.
 template <class ShapeT>
 bool is_pierced(const Placed<ShapeT>& shape, const FacetMesh<SpaceOf<ShapeT>>& mesh, double depth) {

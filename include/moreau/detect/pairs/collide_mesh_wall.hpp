@@ -8,7 +8,8 @@
 //   1. a vertex of the shape above a facet, or below it by a small depth. The normal is that of the
 //      facet. All points on one face of the wall (facets in one plane that are connected) make one
 //      manifold, as on a half-space. For concave ridges and rims see mesh_facet_region.hpp;
-//   2. in space, an edge of the shape and a convex ridge of the wall that cross (ridge_contacts.hpp);
+//   2. in space, an edge of the shape and a convex ridge of the wall that cross (ridge_contacts.hpp). In a pass, where
+//      two ridges rise from one vertex, an edge that overlaps both touches both, also a little beyond their common end;
 //   3. a vertex of the shape and a convex ridge, if the vertex is nearest to the ridge (ridge_contacts.hpp);
 //   4. a tip of the wall (a vertex at which convex ridges end) and the nearest feature of the shape (tip_contacts.hpp).
 //
@@ -23,8 +24,8 @@
 // is known is left out: those of faces come first, those of tips last.
 //
 // If the shape overlaps the wall, several edges can cross a ridge. A contact of 2 is left out if the
-// ridge is not in the shape, or if ending the overlap of a shallower contact takes the shape off the
-// point of the ridge: a block that leans against a step does not jump onto it.
+// ridge is not in the shape, or if ending the overlap of a shallower contact takes the shape off the whole
+// ridge: a block that leans against a step does not jump onto it.
 #pragma once
 
 #include <algorithm>
@@ -78,9 +79,8 @@ class MeshCollision {
     pair_.scratch.passed.clear();
     facets_ = near;
     const Aabb<S> around = box.inflated(pair_.margin - pair_.radius);
-    const T beside = std::max(pair_.margin - pair_.radius, pair_.core.deepest() / 8);
-    const FacetRegion<S> region{pair_.wall,        near,       around, pair_.reference,
-                                pair_.core.size(), pair_.near, beside};
+    const FacetRegion<S> region{pair_.wall,        near,       around,      pair_.reference,
+                                pair_.core.size(), pair_.near, pair_.beside};
     move_reference(region);
     bool touch = false;
     const Aabb<S> within = box.inflated(pair_.largest - pair_.radius);
@@ -173,10 +173,11 @@ class MeshCollision {
     T least = deepest, highest = 0;  // distance of the nearest facet, height above its plane [m]
     Vector to_facet = Vector::Zero();
     std::uint32_t place = 0;
+    const Vector most = Vector::Constant(deepest + pair_.near);
+    const Aabb<S> nearby{pair_.center - most, pair_.center + most};
     for (const NearFacet& facet : region.facets) {
       const Aabb<S>& box = pair_.wall.box(facet.place);
-      if (!box.overlaps(region.around) || !box.inflated(least + pair_.near).contains(pair_.center))
-        continue;
+      if (!box.overlaps(nearby) || !box.overlaps(region.around)) continue;
       const auto& side = pair_.wall.side(facet.place);
       const Vector nearest =
           nearest_on_facet(typename S::Matrix(side.corners.colwise() - pair_.center));

@@ -33,6 +33,7 @@ struct MeshPair {
   const T largest;   ///< gap of the core at a contact, <= margin [m]
   const T rounding;  ///< error of a position [m]
   const T near;      ///< positions closer to each other are the same [m]
+  const T beside;  ///< how far beyond a concave ridge, or the end of a ridge, an overlap counts [m]
   MeshScratch& scratch;
 
   /// @param thickness of the rounding around the core [m]
@@ -49,6 +50,7 @@ struct MeshPair {
         largest(most + thickness),
         rounding((core.size() + thickness) * DetectionTolerance<T>::rounding),
         near((core.size() + thickness) * DetectionTolerance<T>::coincident),
+        beside(std::max(around, core.deepest() / 8)),
         scratch(memory) {}
 
   /// Height of the centre above the plane of a facet [m].
@@ -87,6 +89,11 @@ struct MeshPair {
   /// Whether no point of the shape lies below x along d.
   bool is_lowest(const Vector& x, const Vector& d) const {
     return core.reach(-d) <= -d.dot(x) + near;
+  }
+  /// Whether the motion of the shape that ends the overlap of a contact takes the shape off a point of the wall.
+  bool leads_off(const KnownContacts::Contact<Vector>& contact, const Vector& on_wall) const {
+    return contact.to_shape.dot(on_wall - contact.x) <= near - contact.gap &&
+           is_lowest(contact.x, contact.to_shape);
   }
 
  private:

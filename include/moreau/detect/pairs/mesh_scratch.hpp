@@ -77,18 +77,14 @@ class KnownContacts {
     stored.feature = contact.feature;
   }
 
-  /// Whether a motion that ends the overlap of a shallower contact takes the shape off the point of
-  /// the wall at which another contact is.
-  /// @param near shorter lengths count as 0 [m]
-  /// @param bounds function: whether the shape lies on one side of the plane of a contact
-  template <class Vector, class T, class Bounds>
-  bool frees(const Contact<Vector>& contact, T near, const Bounds& bounds) const {
-    const Vector on_wall = contact.on_wall();
+  /// Whether a motion that ends the overlap of a shallower contact ends that of another contact, too.
+  /// @param near  differences of gaps below it count as 0 [m]
+  /// @param leads function of the shallower contact: whether its motion leads to the end of the overlap
+  template <class Vector, class T, class Leads>
+  bool frees(const Contact<Vector>& contact, T near, const Leads& leads) const {
     for (std::size_t i = 0; i < size(); ++i) {
       const auto other = at<Vector>(i);
-      if (other.gap > contact.gap + near &&
-          other.to_shape.dot(on_wall - other.x) <= near - other.gap && bounds(other))
-        return true;
+      if (other.gap > contact.gap + near && leads(other)) return true;
     }
     return false;
   }

@@ -32,14 +32,15 @@ class RidgeContacts {
   template <class Add>
   void touch(Space<3, T>, std::uint32_t r, const Add& add) {
     const auto& ridge = pair_.wall.ridge(r);
-    const Vector from = pair_.wall.vertex(ridge.vertices[0]) - pair_.center;
-    const Vector along = pair_.wall.vertex(ridge.vertices[1]) - pair_.center - from;
-    const T length2 = along.squaredNorm();
-    const T part = std::clamp(-from.dot(along) / length2, T(0), T(1));
-    if (!pair_.is_within(from + part * along, pair_.largest)) return;
+    Line line{r, pair_.wall.vertex(ridge.vertices[0]) - pair_.center, {}, 0, 0};
+    line.along = pair_.wall.vertex(ridge.vertices[1]) - pair_.center - line.from;
+    line.length2 = line.along.squaredNorm();
+    line.beyond = pair_.beside / std::sqrt(line.length2);
+    const T part = std::clamp(-line.from.dot(line.along) / line.length2, T(0), T(1));
+    if (!pair_.is_within(line.from + part * line.along, pair_.largest)) return;
     // The points of a contact lie within the largest gap above the ridge, along the middle of its cone. An
     // edge through such a point has an end there or below.
-    const T lowest = -ridge.middle.dot(from) - pair_.largest;
+    const T lowest = -ridge.middle.dot(line.from) - pair_.largest;
     pair_.scratch.low.clear();
     const auto add_low = [&](std::uint32_t v) { pair_.scratch.low.push_back(v); };
     pair_.core.for_each_above(-ridge.middle, lowest, add_low);
@@ -48,21 +49,26 @@ class RidgeContacts {
     };
     for (const std::uint32_t v : pair_.scratch.low) {
       pair_.core.for_each_edge_at(v, [&](std::uint32_t e, std::uint32_t other) {
-        if (other > v || !is_below(other)) cross(r, e, v, other, from, along, add);
+        if (other > v || !is_below(other)) cross(line, e, v, other, add);
       });
-      touch_vertex(r, v, from, along, length2, add);
+      touch_vertex(line, v, add);
     }
   }
-  /// Whether a ridge lies in the shape and no shallower contact leads out of the wall there.
+  /// Whether a ridge lies in the shape, and no motion that ends the overlap of a shallower contact takes all of the ridge
+  /// off the shape.
   bool is_deepest(const Known& contact) {
     if (contact.feature.kind() != FeatureKey::Kind::edge_edge) return true;
     const auto& ends = pair_.wall.ridge(contact.feature.b()).vertices;
-    const auto bounds = [&](const Known& other) {
-      return pair_.is_lowest(other.x, other.to_shape);
-    };
-    return pair_.core.meets(pair_.wall.vertex(ends.front()) - pair_.center,
-                            pair_.wall.vertex(ends.back()) - pair_.center, pair_.near) &&
-           !pair_.scratch.known.frees(contact, pair_.near, bounds);
+    const Vector from = pair_.wall.vertex(ends.front()) - pair_.center,
+                 to = pair_.wall.vertex(ends.back()) - pair_.center;
+    if (!pair_.core.meets(from, to, pair_.near)) return false;
+    const Vector on_wall = contact.on_wall();
+    return !pair_.scratch.known.frees(contact, pair_.near, [&](const Known& other) {
+      if (!MeshCore<ShapeT>::has_inside) return pair_.leads_off(other, on_wall);
+      const Vector way = -std::min(other.gap, T(0)) * other.to_shape;
+      return other.gap <= pair_.near && pair_.is_lowest(other.x, other.to_shape) &&
+             !pair_.core.meets(from - way, to - way, -pair_.near);
+    });
   }
   /// A rim that grazes a face of the shape is not as deep as the face is wide: if the point of a ridge at which an edge
   /// touches it leaves the shape by a shorter way, through a face beside the edge and out of the wall, the contact
@@ -81,43 +87,73 @@ class RidgeContacts {
   }
 
  private:
+  /// A ridge, relative to the centre of the shape.
+  struct Line {
+    std::uint32_t ridge;
+    Vector from, along;  ///< begin, vector to the end [m]
+    T length2;           ///< of `along`, squared [m^2]
+    T beyond;            ///< how far beyond an end an overlap counts, in lengths of the ridge [-]
+  };
   /// Whether a direction lies between the normals of the two facets of a ridge, to a tolerance [-].
   bool is_in_cone(std::uint32_t r, const Vector& d, T tolerance = MeshPair<ShapeT>::aligned) const {
     const auto& beyond = pair_.wall.ridge(r).beyond;
     return d.dot(beyond[0]) >= -tolerance && d.dot(beyond[1]) >= -tolerance;
   }
+  /// Whether an edge that lies below the end of a ridge, which is in the shape, lies between two ridges that rise from this end, as in a pass
+  /// of a crest: along the edge they are seen as a valley. It touches both, as at two half-spaces, also a little
+  /// beyond their common end.
+  /// @param end 0 or 1: of the ridge
+  /// @param d   normal of the contact with the ridge
+  bool is_in_pass(std::uint32_t r, bool end, const Vector& edge, const Vector& d) const {
+    const auto& wall = pair_.wall;
+    const std::uint32_t v = wall.ridge(r).vertices[end];
+    const Vector tip = wall.vertex(v) - pair_.center,
+                 along = wall.vertex(wall.ridge(r).vertices[!end]) - wall.vertex(v);
+    if (!pair_.core.meets(tip, tip, pair_.near)) return false;
+    const auto is_other_slope = [&](std::uint32_t q) {
+      const auto& ends = wall.ridge(q).vertices;
+      if (q == r || (ends.front() != v && ends.back() != v)) return false;
+      const Vector rise = wall.vertex(ends[ends.front() == v]) - wall.vertex(v);
+      Vector normal = edge.cross(rise).normalized();
+      if (normal.dot(along) < 0) normal = -normal;
+      return normal.dot(along) > 0 && d.dot(rise) > 0 && is_in_cone(q, normal);
+    };
+    return std::any_of(pair_.scratch.ridges.begin(), pair_.scratch.ridges.end(), is_other_slope);
+  }
   /// The contact of an edge, from vertex v to w, with a ridge.
   template <class Add>
-  void cross(std::uint32_t r, std::uint32_t e, std::uint32_t v, std::uint32_t w, const Vector& from,
-             const Vector& along, const Add& add) {
+  void cross(const Line& line, std::uint32_t e, std::uint32_t v, std::uint32_t w, const Add& add) {
+    const std::uint32_t r = line.ridge;
     const Vector p = pair_.core.vertex(v), edge = pair_.core.vertex(w) - p;
-    const Vector across = edge.cross(along), apart = from - p;
+    const Vector across = edge.cross(line.along), apart = line.from - p;
     const T across2 = across.squaredNorm();
-    if (!(across2 > T(1e-8) * edge.squaredNorm() * along.squaredNorm())) return;
-    const T on_edge = apart.cross(along).dot(across), on_ridge = apart.cross(edge).dot(across);
-    if (!(on_edge >= 0 && on_edge <= across2 && on_ridge >= 0 && on_ridge <= across2)) return;
+    if (!(across2 > T(1e-8) * edge.squaredNorm() * line.length2)) return;
+    const T on_edge = apart.cross(line.along).dot(across), on_ridge = apart.cross(edge).dot(across);
+    if (!(on_edge >= 0 && on_edge <= across2)) return;
+    const T past = std::max(-on_ridge, on_ridge - across2);  // the end of the ridge, if > 0
+    if (past > line.beyond * across2) return;
     // At a rim two opposite directions can lie in the normal cone. A capsule is on the side of its segment.
     T first = std::sqrt(across2);
     if (!MeshCore<ShapeT>::has_inside && across.dot(apart) > 0) first = -first;
     for (const T length : {first, -first}) {
       const Vector d = across / length;
-      if (is_in_cone(r, d) && pair_.is_near(-d.dot(apart)) && pair_.is_low(p, -d.dot(apart), d))
+      if (is_in_cone(r, d) && pair_.is_near(-d.dot(apart)) && pair_.is_low(p, -d.dot(apart), d) &&
+          (!(past > 0) || (d.dot(apart) > 0 && is_in_pass(r, on_ridge > 0, edge, d))))
         return add(d, -d.dot(apart), Vector(p + on_edge / across2 * edge),
                    FeatureKey(FeatureKey::Kind::edge_edge, e, r));
     }
   }
   /// The contact of vertex v with a ridge, if it is nearest to the ridge.
   template <class Add>
-  void touch_vertex(std::uint32_t r, std::uint32_t v, const Vector& from, const Vector& along,
-                    T length2, const Add& add) {
-    const Vector x = pair_.core.vertex(v), apart = x - from;
-    const T exact = apart.dot(along) / length2, part = std::clamp(exact, T(0), T(1));
-    const Vector away = apart - part * along;
-    const T gap = away.norm(), off = (exact - part) * (exact - part) * length2;
+  void touch_vertex(const Line& line, std::uint32_t v, const Add& add) {
+    const Vector x = pair_.core.vertex(v), apart = x - line.from;
+    const T exact = apart.dot(line.along) / line.length2, part = std::clamp(exact, T(0), T(1));
+    const Vector away = apart - part * line.along;
+    const T gap = away.norm(), off = (exact - part) * (exact - part) * line.length2;
     if (!(gap > pair_.near && gap <= pair_.largest && off <= bent * bent * gap * gap)) return;
     const Vector d = away / gap;
-    if (is_in_cone(r, d) && pair_.is_lowest(x, d))
-      add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, r));
+    if (is_in_cone(line.ridge, d) && pair_.is_lowest(x, d))
+      add(d, gap, x, FeatureKey(FeatureKey::Kind::vertex_edge, v, line.ridge));
   }
 
   // Sines of the largest angle outside of a normal cone [-]:

@@ -42,9 +42,6 @@ class TipContacts {
   /// @param tips scratch.pierced, or scratch.pricked
   template <class Add>
   void touch_pierced(const std::vector<std::size_t>& tips, const Add& add) {
-    const auto bounds = [&](const Known& other) {
-      return pair_.is_lowest(other.x, other.to_shape);
-    };
     for (const std::size_t first : tips) {
       const std::uint32_t v = pair_.scratch.tips[first].first;
       const Vector x = pair_.wall.vertex(v) - pair_.center;
@@ -58,7 +55,8 @@ class TipContacts {
         contact = {x - gap * outward, -outward, gap,
                    FeatureKey(vertex_on_face(S{}), v, f).swapped()};
       });
-      if (best > 0 && !pair_.scratch.known.frees(contact, pair_.near, bounds))
+      const auto leads = [&](const Known& other) { return pair_.leads_off(other, x); };
+      if (best > 0 && !pair_.scratch.known.frees(contact, pair_.near, leads))
         add(contact.to_shape, contact.gap, contact.x, contact.feature);
     }
   }
