@@ -99,9 +99,10 @@ class RidgeContacts {
     const auto& beyond = pair_.wall.ridge(r).beyond;
     return d.dot(beyond[0]) >= -tolerance && d.dot(beyond[1]) >= -tolerance;
   }
-  /// Whether an edge that lies below the end of a ridge, which is in the shape, lies between two ridges that rise from this end, as in a pass
-  /// of a crest: along the edge they are seen as a valley. It touches both, as at two half-spaces, also a little
-  /// beyond their common end.
+  /// Whether an edge that lies below the end of a ridge, which is in the shape, lies between two ridges that rise from
+  /// this end, as in a pass of a crest: along the edge they are seen as a valley. It touches both, as at two
+  /// half-spaces, also a little beyond their common end. Along an edge that lies in a valley, the other slope is nearly a face: its ridge can be at
+  /// the other end of the valley.
   /// @param end 0 or 1: of the ridge
   /// @param d   normal of the contact with the ridge
   bool is_in_pass(std::uint32_t r, bool end, const Vector& edge, const Vector& d) const {
@@ -116,7 +117,7 @@ class RidgeContacts {
       const Vector rise = wall.vertex(ends[ends.front() == v]) - wall.vertex(v);
       Vector normal = edge.cross(rise).normalized();
       if (normal.dot(along) < 0) normal = -normal;
-      return normal.dot(along) > 0 && d.dot(rise) > 0 && is_in_cone(q, normal);
+      return normal.dot(along) > 0 && d.dot(rise) > 0 && is_in_cone(q, normal, level);
     };
     return std::any_of(pair_.scratch.ridges.begin(), pair_.scratch.ridges.end(), is_other_slope);
   }
@@ -157,7 +158,7 @@ class RidgeContacts {
   }
 
   // Sines of the largest angle outside of a normal cone [-]:
-  static constexpr T level = T(0.1);  // of a face that a ridge grazes
+  static constexpr T level = T(0.1);  // of a face that a ridge grazes, of the other slope of a pass
   static constexpr T bent = T(2e-5);  // of two ridges without a tip between them
   MeshPair<ShapeT>& pair_;
 };
