@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Contacts in single precision do not depend on the size of the shapes, from 1e-7 m to 1e7 m: squares
 // and higher powers of lengths must neither underflow nor overflow.
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
 #include <span>
 #include <tuple>
@@ -154,4 +156,33 @@ TEST_CASE_TEMPLATE("float: hulls and moments of shapes from 1e-6 m to 1e6 m", S,
               doctest::Approx(expected.inertia(k, k)).epsilon(1e-3));
       CHECK(large.inradius() / scale == doctest::Approx(grain.inradius()).epsilon(1e-4));
     }
+}
+
+TEST_CASE_TEMPLATE("float: no contact point of a capsule is deeper than the pair", S, Plane,
+                   Volume) {
+  // An end of the capsule beside a vertex: nearer than `coincident` it counts as above the steep face beside it.
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(1, 8);
+  const auto grain = samples::grain<float>(S{}, random);
+  using Vector = typename S::Vector;
+  const CapsuleIn<S> capsule(Segment<S>(0.5f), 0.02f);
+  float worst = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Pose<S> pose_a, pose_b;
+    pose_a.rotation = samples::rotation(S{}, random);
+    pose_b.rotation = samples::rotation(S{}, random);
+    const auto corner = Eigen::Index(random() % grain.vertex_count());
+    const Vector end = pose_a.rotation * Vector(0.5f * Vector::UnitX());
+    const float beside = float(std::pow(10, -uniform(random)));
+    pose_a.position = pose_b.rotation * Vector(grain.vertices().row(corner).transpose()) - end +
+                      0.05f * samples::direction<S>(random) +
+                      beside * samples::direction<S>(random);
+    const Placed a(capsule, pose_a);
+    const Placed b(grain, pose_b);
+    Manifold<S> manifold;
+    if (!collide(a, b, 0.1f, manifold) || manifold.gap < -0.015f) continue;
+    for (const auto& point : manifold.points)
+      worst = std::max(worst, (manifold.gap - point.gap) / (0.5f + b.radius()));
+  }
+  CHECK(worst < 128 * std::numeric_limits<float>::epsilon());
 }

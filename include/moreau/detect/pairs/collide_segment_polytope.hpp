@@ -45,6 +45,7 @@ class SegmentOnFace {
       const Vector from = b_.vertices()[loop[k]] + offset_;
       const Vector along = b_.vertices()[loop[k + 1 < loop.size() ? k + 1 : 0]] + offset_ - from;
       const Vector inward = along.cross(normal_).normalized();
+      lowest_ = std::min(lowest_, normal_.dot(from));
       cut(inward.dot(a_.vertex(0) - from), inward.dot(a_.vertex(1) - from), near, k);
     }
     steepness_ = b_.normals()[face_].dot(normal_);
@@ -81,7 +82,9 @@ class SegmentOnFace {
   }
   ManifoldPoint<S> point(std::size_t i) const {
     const Vector x = (T(2) * ends_[i].fraction - T(1)) * a_.half();
-    const T gap = (b_.offset(face_) - b_.normals()[face_].dot(x - offset_)) / steepness_;
+    // Up to `near` beyond an edge the plane of a steep face continued would be far deeper than the surface.
+    const T gap = std::max((b_.offset(face_) - b_.normals()[face_].dot(x - offset_)) / steepness_,
+                           lowest_ - normal_.dot(x));
     const FeatureKey key = ends_[i].edge == none
                                ? FeatureKey(FeatureKey::Kind::vertex_face, i, face_)
                                : FeatureKey(FeatureKey::Kind::edge_edge, 0,
@@ -94,6 +97,8 @@ class SegmentOnFace {
   const std::size_t face_;
   const Vector normal_, offset_;
   T steepness_ = 0;
+  T lowest_ = std::numeric_limits<
+      T>::infinity();  // height of the face's vertex nearest to the segment, along the normal [m]
   std::array<End, 2> ends_{End{T(0), none}, End{T(1), none}};
 };
 
