@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/compliant.hpp"
@@ -239,6 +240,34 @@ TEST_CASE("bridge: a snapshot continues it, and a removed grain takes its bridge
   other.heavy = other.world.add_grain(other.world.add_shape(Circle(radius)), pose, 1e9);
   other.move(0);
   CHECK(other.pull() == 0);
+}
+
+TEST_CASE("bridge: each pair of materials has its volume") {
+  const double volume = 1e-3 * radius * radius * radius;
+  const auto law = [&](double times) {
+    return Wet(CapillaryBridge<>(times * volume, tension, 0.2), Coulomb());
+  };
+  Materials<Wet> materials(2, law(1));
+  materials.set(MaterialId(0), MaterialId(1), law(8));
+  double rupture[3];
+  for (std::size_t pair = 0; pair < 3; ++pair) {  // of materials (0, 0), (0, 1), (1, 1)
+    Simulation<Circle, Wet> world(2 * radius, materials);
+    const ShapeId shape = world.add_shape(Circle(radius));
+    const BodyId a = world.add_grain(shape, Pose<Space<2>>({0, 0}), 1e9, MaterialId(pair / 2)),
+                 b = world.add_grain(shape, Pose<Space<2>>({2 * radius - 1e-8, 0}), 1e9,
+                                     MaterialId((pair + 1) / 2));
+    world.prescribe_motion(a);
+    world.step(h);
+    world.set_velocity(a, {-1e-2, 0});
+    do world.step(h);
+    while (world.contact_impulse(b)[0] < 0);
+    rupture[pair] = world.pose(b).position[0] - world.pose(a).position[0] - 2 * radius;
+  }
+  const double once = law(1).reach(), twice = law(8).reach();
+  CHECK(agree(twice, 2 * once));
+  for (const auto& [found, expected] :
+       {std::pair(rupture[0], once), {rupture[1], twice}, {rupture[2], once}})
+    CHECK(std::abs(found - expected) < 2e-2 * h + 1e-8);
 }
 
 TEST_CASE("bridge: a periodic cell must have room for its reach") {
