@@ -4,6 +4,7 @@
 //
 //   - the deflection of the end, beside that of the springs of the bonds and that of Euler's and Bernoulli's beam with
 //     E I = k_t R^2 d, d being the diameter of a grain and R = d / 4 the effective radius of a bond;
+//   - the deflection of every grain, beside that of this beam;
 //   - the force at which the beam breaks, beside that at which the couple of the first bond reaches its strength, and
 //     which bond broke.
 #include <cstddef>
@@ -52,6 +53,16 @@ class Beam {
     for (int k = 0; k < 50; ++k) simulation_.step(step);
     return -simulation_.pose(ids_.back()).position[1];
   }
+  /// Prints the positions of the grains along the beam and their deflections, beside those of the beam of Euler and
+  /// Bernoulli [mm].
+  void print(double force, double rigidity) const {
+    std::printf("# position, deflection, Euler-Bernoulli [mm]\n");
+    for (const moreau::BodyId grain : ids_) {
+      const Vector& at = simulation_.pose(grain).position;
+      std::printf("%7.2f %9.5f %9.5f\n", 1e3 * at[0], -1e3 * at[1],
+                  1e3 * force * at[0] * at[0] * (3 * length - at[0]) / 6 / rigidity);
+    }
+  }
   /// Whether all bonds hold.
   bool holds() const { return simulation_.breakages().empty(); }
   /// The number of the grain before the bond that broke first.
@@ -81,13 +92,14 @@ void bend_and_break(const char* name) {
   }
   const double rigidity = couple * 2 * radius,
                euler = load * length * length * length / 3 / rigidity;
-  std::printf("%s: deflection %.4f mm, springs %.4f mm, Euler-Bernoulli %.4f mm\n", name,
+  std::printf("# %s: deflection %.4f mm, springs %.4f mm, Euler-Bernoulli %.4f mm\n", name,
               1e3 * beam.deflection(load), 1e3 * springs, 1e3 * euler);
+  beam.print(load, rigidity);
   const double expected = strength.bending * effective_radius / (length - radius);
   double force = load;
   while (beam.holds()) beam.deflection(force += 0.02 * expected);  // slowly: it must not swing
-  std::printf("%s: breaks at %.2f N, expected %.2f N, at bond %zu of %zu\n", name, force, expected,
-              beam.broken() + 1, grains - 1);
+  std::printf("# %s: breaks at %.2f N, expected %.2f N, at bond %zu of %zu\n\n\n", name, force,
+              expected, beam.broken() + 1, grains - 1);
 }
 
 }  // namespace
