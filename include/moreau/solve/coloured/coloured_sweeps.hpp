@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/acceleration.hpp"
 #include "moreau/solve/coloured/group_kernel.hpp"
@@ -49,14 +50,13 @@ class ColouredSweeps {
   /// measure_residual() after finish().
   void measure_residual(const ContactProblem<Operator, Law>& problem,
                         std::span<const Impulse> impulses, SolveReport& report, const Team& team) {
-    if constexpr (MapsLanes<Law, S>)
-      if (!problem.delassus.has_cell()) {
-        auto sums = kernel_.residual(mean_diagonal(problem.delassus, shared_), team);
-        if (shared_) sums.add_up(*shared_);
-        sums.write(report);
-        return;
-      }
-    moreau::measure_residual(problem, impulses, report, team, shared_);
+    if constexpr (MapsLanes<Law, S>) {
+      auto sums = kernel_.residual(mean_diagonal(problem.delassus, shared_), team);
+      if (shared_) sums.add_up(*shared_);
+      sums.write(report);
+    } else {
+      moreau::measure_residual(problem, impulses, report, team, shared_);
+    }
   }
   /// Saves the impulses.
   void save(const Team& team) {
@@ -83,7 +83,7 @@ class ColouredSweeps {
     const bool mixing = acceleration_.is_mixing();
     const bool back = mixing && mixed_sweeps_ % 2 == 0;
     if (mixing) mix();
-    kernel_.move_cell(active_.groups(), acceleration_.beta());
+    kernel_.begin_sweep(acceleration_.beta());
     run(TimedWork::sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
       if (!mixing) {
@@ -95,12 +95,13 @@ class ColouredSweeps {
       else
         active_.forward(rank, size, wait, visit, settle_hub());
     });
+    kernel_.end_sweep(active_.groups());
     average();
     if (!mixing) update_beta(active_);
   }
   /// An accelerated sweep over all groups; updates the active set.
   void sweep_all(const Team& team) {
-    kernel_.move_cell(active_.groups(), acceleration_.beta());
+    kernel_.begin_sweep(acceleration_.beta());
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       kernel_.velocity().extrapolate(acceleration_.beta(), rank, size);
       wait();
@@ -109,21 +110,23 @@ class ColouredSweeps {
       };
       all_.forward(rank, size, wait, visit, settle_hub());
     });
+    kernel_.end_sweep(all_.groups());
     average();
     update_active();
     update_beta(all_);
   }
   /// A sweep over all groups without acceleration; updates the active set.
   /// @returns its changes
-  SweepChange plain_sweep(const Team& team) {
+  MOREAU_INLINED SweepChange plain_sweep(const Team& team) {
     kernel_.velocity().forget_change();
     acceleration_.interrupt();
     kernel_.clear_measures();
-    kernel_.move_cell(active_.groups(), 0);
+    kernel_.begin_sweep(0);
     run(TimedWork::full_sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [&](std::uint32_t k) { kernel_.template visit_all<true>(k, 0); };
       all_.forward(rank, size, wait, visit, settle_hub());
     });
+    kernel_.end_sweep(all_.groups());
     average();
     update_active();
     SweepChange change = kernel_.measures();
@@ -160,8 +163,8 @@ class ColouredSweeps {
     kernel_.velocity().forget_change();
     ++mixed_sweeps_;
   }
-  void recompute_velocities() {
-    kernel_.recompute_velocities();
+  MOREAU_COLD void recompute_velocities() {
+    kernel_.recompute_velocities(all_.groups());
     average();
     update_active();
   }
@@ -176,7 +179,7 @@ class ColouredSweeps {
     acceleration_.update_beta(
         [&] { return sum_over(shared_, kernel_.squared_change(visited.groups())); });
   }
-  void average() {
+  MOREAU_INLINED void average() {
     if (shared_) shared_->average(kernel_.velocity().scalars(), kernel_.velocity().width);
   }
 

@@ -47,7 +47,10 @@ class GroupKernel {
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
     hub_changes_.resize(contacts_.groups.size());
-    start_cell(problem.delassus);
+    cell_.start(problem.delassus, contacts_);
+    has_extras_ = is_large_ || cell_.moves();
+    if (cell_.moves())
+      for (Group& group : contacts_.groups) group.is_simple = false;
     set_impulses(problem.delassus, impulses, team, shared);
     team.share_each(contacts_.groups.size(), 128,
                     [&](std::size_t k) { update_active(contacts_.groups[k]); });
@@ -61,26 +64,30 @@ class GroupKernel {
     team.share_each(op.body_count(), 256,
                     [&](std::size_t i) { velocity_.set(i, op.velocity_change(i)); });
     velocity_.forget_change();
+    if (cell_.moves()) cell_.set_rate(op.cell_change());
   }
-  /// Computes the velocities of the bodies from the impulses alone.
-  void recompute_velocities() {
+  /// Computes the velocities of the bodies and of the cell from the impulses alone.
+  /// @param all all groups
+  MOREAU_INLINED void recompute_velocities(const std::vector<std::uint32_t>& all) {
     velocity_.reset(contacts_.velocities());
+    if (cell_.moves()) cell_.begin_from_zero();
     for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
       apply(k);
-      if (cell_.moves()) take(k);
       update_active(contacts_.groups[k]);
     }
+    end_sweep(all);
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     contacts_.unpack(impulses, team);
   }
-  /// The sums of measure_residual() after set_impulses(), without a cell that moves by its stress.
+  /// The sums of measure_residual() after set_impulses(). A sweep without extrapolation, or set_impulses(), is next.
   /// @param scale makes velocities of impulses [1/kg]
-  ResidualSums<Operator, Law> residual(double scale,
-                                       const Team& team) const requires MapsLanes<Law, S> {
-    return sum_of<LaneResidual<Points>>(
-               team, contacts_.groups.size(),
-               [&](LaneResidual<Points>& sum, std::size_t k) { add_residual(sum, k, T(scale)); })
+  ResidualSums<Operator, Law> residual(double scale, const Team& team) requires MapsLanes<Law, S> {
+    begin_sweep(0);
+    return sum_of<LaneResidual<Points>>(team, contacts_.groups.size(),
+                                        [&](LaneResidual<Points>& sum, std::size_t k) {
+                                          add_residual(sum, std::uint32_t(k), T(scale));
+                                        })
         .template sums<ResidualSums<Operator, Law>>(scale);
   }
 
@@ -99,15 +106,24 @@ class GroupKernel {
     Group& group = contacts_.groups[k];
     changes_[k] = Values{};
     if (group.delays_hub()) hub_changes_[k] = {};
-    if (group.active == 0 && !approaches(k)) return;
+    if (group.active == 0 && !approaches(k)) {
+      if (cell_.moves()) cell_.skip(k);
+      return;
+    }
     visit<Measure>(k, group.count, beta);
     update_active(group);
   }
 
-  /// Gives a cell that moves by its stress the velocity of the impulses from which the next sweep starts.
-  /// @param active all groups with active points
-  /// @param beta   of that sweep
-  void move_cell(const std::vector<std::uint32_t>& active, T beta) { cell_.move(active, beta); }
+  /// Before a sweep: gives a cell that moves by its stress the velocity of the impulses from which the sweep starts.
+  /// @param beta of the sweep
+  void begin_sweep(T beta) {
+    if (cell_.moves()) cell_.begin_sweep(contacts_, beta);
+  }
+  /// After a sweep: gives such a cell the velocity of the impulses.
+  /// @param groups of the sweep
+  void end_sweep(const std::vector<std::uint32_t>& groups) {
+    if (cell_.moves()) cell_.end_sweep(groups, contacts_);
+  }
   /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
   /// have changed.
   void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
@@ -142,33 +158,14 @@ class GroupKernel {
     velocity_.prefetch(contacts_.groups[number].b);
   }
 
-  /// The first points of a group.
-  std::span<const Points> points_of(const Group& group, std::uint32_t count) const {
-    return std::span(contacts_.points).subspan(group.first, count);
-  }
-  void start_cell(const Operator& op) {
-    cell_.start(op, contacts_.groups.size());
-    has_extras_ = is_large_ || cell_.moves();
-    if (!cell_.moves()) return;
-    for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
-      Group& group = contacts_.groups[k];
-      group.is_simple = false;
-      cell_.place(k, contacts_.points[group.first]);
-      take(k);
-    }
-  }
-  /// Gives the cell the impulses of a group.
-  void take(std::uint32_t k) {
-    const Group& group = contacts_.groups[k];
-    cell_.take(k, points_of(group, group.count));
-  }
-
   /// Adds what the impulses of a group do to its bodies.
-  void apply(std::size_t number) {
+  MOREAU_INLINED void apply(std::uint32_t number) {
     const Group& group = contacts_.groups[number];
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    if (cell_.moves()) cell_.enter(number, b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
       push(number, contacts_.points[p], contacts_.points[p].impulse, a, b);
+    if (cell_.moves()) cell_.leave(number, b);
     velocity_.scatter(group, a, b);
   }
   /// Adds what impulses at a point of group `number` do to the velocities of its bodies.
@@ -247,7 +244,7 @@ class GroupKernel {
     const Group& group = contacts_.groups[number];
     const BodyLanes a = velocity_.gather(group.a);
     BodyLanes b = velocity_.gather(group.b);
-    if (cell_.moves()) add(cell_.velocity(number), b);
+    if (cell_.moves()) cell_.add_velocity(number, b);
     typename Lanes::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = contacts_.points[p];
@@ -259,10 +256,13 @@ class GroupKernel {
     return Lanes::any(some);
   }
 
-  MOREAU_INLINED void add_residual(LaneResidual<Points>& sum, std::size_t number, T scale) const {
+  MOREAU_INLINED void add_residual(LaneResidual<Points>& sum, std::uint32_t number, T scale) const {
     const Group& group = contacts_.groups[number];
-    const BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
-    for (const Points& point : points_of(group, group.count)) {
+    const BodyLanes a = velocity_.gather(group.a);
+    BodyLanes b = velocity_.gather(group.b);
+    if (cell_.moves()) cell_.add_velocity(number, b);
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
+      const Points& point = contacts_.points[p];
       const Vector between = relative(point, a, b);
       Row u = point.free;
       for (std::size_t k = 0; k < S::dim; ++k)
@@ -279,7 +279,7 @@ class GroupKernel {
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     if (has_extras_) {
       if (is_large_) prefetch_from(number + ahead);
-      if (cell_.moves()) add(cell_.begin_visit(number), b);
+      if (cell_.moves()) cell_.enter(number, b);
     }
     const Values beta = Lanes::broadcast(extrapolation);
     for (std::uint32_t p = group.first; p < group.first + count; ++p) {
@@ -314,7 +314,7 @@ class GroupKernel {
     }
     changes_[number] = change2;
     if (!group.is_simple) {
-      if (cell_.moves()) subtract(cell_.take(number, points_of(group, count)), b);
+      if (cell_.moves()) cell_.leave(number, b);
       if (group.delays_hub()) {
         hub_changes_[number] = velocity_.scatter_partners(group, a, b);
         return;
@@ -322,13 +322,6 @@ class GroupKernel {
     }
     velocity_.scatter(group, a, b);
   }
-  static void add(const Vector& velocity, BodyLanes& b) {
-    for (std::size_t k = 0; k < S::dim; ++k) b[k] += velocity[k];
-  }
-  static void subtract(const Vector& velocity, BodyLanes& b) {
-    for (std::size_t k = 0; k < S::dim; ++k) b[k] -= velocity[k];
-  }
-
   static void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
                       const Row& impulse) {
     const Row dv = block * change, wr = block * impulse;
