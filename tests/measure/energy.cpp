@@ -61,7 +61,7 @@ TEST_CASE("the parts of the energy") {
   CHECK(momentum(disk).angular[0] == 3 * -4 + 2 * (7 * 2 - 7 * 1));
 }
 
-TEST_CASE("kinetic energy of a simulation: of its grains, not of its walls") {
+TEST_CASE("energy and momentum of a simulation: of its grains, not of its walls") {
   using S = Space<2>;
   using Law = SignoriniCoulomb<>;
   Simulation<Disk<>, Law> world(1, Materials<Law>(1, Law(0.5)));
@@ -73,4 +73,10 @@ TEST_CASE("kinetic energy of a simulation: of its grains, not of its walls") {
   const KineticEnergy<S> energy = kinetic_energy(world);
   CHECK(energy.translation == 2 * mass);
   CHECK(energy.rotation == doctest::Approx(mass * 0.25 / 2 * 9 / 2).epsilon(1e-14));
+  const Momentum<S> all = momentum(world), about = momentum(world, {0, 2});
+  CHECK(all.linear == S::Vector(0, 2 * mass));
+  CHECK(all.angular[0] == doctest::Approx(mass * (0.25 / 2 * 3 + 1 * 2)).epsilon(1e-14));
+  CHECK(about.angular[0] == all.angular[0]);
+  CHECK(momentum(world, {3, 0}).angular[0] ==
+        doctest::Approx(mass * (0.25 / 2 * 3 - 2 * 2)).epsilon(1e-14));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <doctest/doctest.h>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/measure/energy.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
@@ -121,6 +123,33 @@ TEST_CASE_TEMPLATE("cohesive: a disk is held by another at the default range, up
         CHECK(lowered(1.05 * weight, angle, step, correct) < 1e-6);
         CHECK(lowered(0.95 * weight, angle, step, correct) > 1e-4);
       }
+}
+
+TEST_CASE_TEMPLATE("cohesive: free disks keep their momentum to rounding, whatever the adhesion",
+                   Solver, MOREAU_TYPES((NonlinearGaussSeidel), (ColouredGaussSeidel))) {
+  using Law = Cohesive<Coulomb>;
+  const double r = 0.01, rate = 10, h = 1e-4;
+  const int steps = 200;
+  OverlapCorrectionOptions correction;
+  correction.enabled = false;
+  for (double adhesion = 1; adhesion < 2e6; adhesion *= 10) {
+    CAPTURE(adhesion);
+    Simulation<Disk<double>, Law, MoreauJean, CellGrid<S>, Solver> world(
+        2 * r, Materials<Law>(1, Law(Coulomb(0.5), adhesion)), {}, {}, correction);
+    const ShapeId disk = world.add_shape(Disk<double>(r));
+    for (int k = 0; k < 7; ++k) {  // a triangular lattice, which turns and flies
+      const Vector at = 2 * r * Vector(k % 3 + 0.5 * double(k / 3), std::sqrt(0.75) * (k / 3));
+      const BodyId grain = world.add_grain(disk, Pose<S>(at), 2500);
+      world.set_velocity(grain, {0.1 - rate * at.y(), rate * at.x()});
+      world.set_spin(grain, S::Angular::Constant(rate));
+    }
+    const Momentum<S> before = momentum(world);
+    for (int k = 0; k < steps; ++k) world.step(h);
+    const Momentum<S> after = momentum(world);
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * steps;
+    CHECK((after.linear - before.linear).norm() < rounding * before.linear.norm());
+    CHECK((after.angular - before.angular).norm() < rounding * before.angular.norm());
+  }
 }
 
 TEST_CASE("a snapshot between two steps keeps the state of friction") {

@@ -106,4 +106,24 @@ Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
   return sum;
 }
 
+/// Momentum of all grains of a simulation. Grains whose motion is prescribed count too.
+/// @param simulation a Simulation
+/// @param origin     the point about which the angular momentum is taken, world axes [m]. In a periodic cell the angular
+///                   momentum depends on the images of the grains, which are those of their poses
+template <class Simulation>
+Momentum<typename Simulation::S> momentum(
+    const Simulation& simulation,
+    const VectorArgument<typename Simulation::S>& origin = Simulation::S::Vector::Zero()) {
+  using S = typename Simulation::S;
+  const auto& bodies = simulation.bodies();
+  return momentum<S>(
+      simulation.grain_count(),
+      [&](std::size_t k) {
+        const std::size_t i = simulation.grain(k).index();
+        return BodyMotion<S>{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
+                             bodies.pose[i].position, bodies.velocity[i]};
+      },
+      origin);
+}
+
 }  // namespace moreau

@@ -3,10 +3,16 @@
 // The contact problem has the pushes of the contacts, which the law's solve() finds; between steps, contacts have
 // the impulses on the bodies, which are the pushes less the attraction.
 //
+// The velocities after the step are those without contacts and attraction, changed by the impulses on the bodies
+// (stage 9). As the sum of attraction and pushes, they would have the rounding of h T / m, where the attraction T of a
+// strong bond is many orders of magnitude larger than the force that the bond transmits. This rounding differs from
+// body to body, and the momentum of free bodies would not stay constant.
+//
 // Of bodies that several processes share, each process attracts its copies of a part of the mass by its own contacts;
 // the mean of the copies is the body under all of them (solve/shared_bodies.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -112,10 +118,53 @@ class Attraction {
       return pushes_;
     }
   }
+  /// Finds the changes of velocity by the impulses on b of the contacts, after take_from(). Their sums for a body are
+  /// those of double precision: impulses of h T can cancel in these, too, as the forces inside of a cohesive cluster.
+  /// @param op     the operator of the contacts, which stays as it is
+  /// @param shared bodies that other processes share, or null
+  /// @returns whether contacts attract in this step. If not, there are no such changes: the velocities of the operator
+  ///          are those of the impulses on b
+  bool find_changes(const ContactsOf<Law, S>& contacts, const auto& op, SharedBodies* shared) {
+    const auto attracts = [](Scalar pull) { return pull != 0; };
+    if (!shared && std::none_of(pulls_.begin(), pulls_.end(), attracts)) return false;
+    momenta_.assign(op.body_count(), Sums::Twist::Zero());
+    for (std::size_t c = 0; c < contacts.size(); ++c) add_momenta(contacts, c);
+    by_impulses_.resize(momenta_.size());
+    for (std::size_t i = 0; i < momenta_.size(); ++i) {
+      const Twist momentum = momenta_[i].template cast<Scalar>();
+      linear<S>(by_impulses_[i]) = op.inverse_mass(i).velocity_of(linear<S>(momentum));
+      angular<S>(by_impulses_[i]) = op.inverse_mass(i).spin_of(angular<S>(momentum));
+    }
+    if (shared) average_twists<S>(*shared, std::span<Twist>(by_impulses_));
+    return true;
+  }
+  /// The change of the velocity of a body, by find_changes() [m/s, rad/s].
+  const Twist& change_of(std::size_t body) const { return by_impulses_[body]; }
   /// One per contact: impulse of the attraction [N s].
   std::span<const Scalar> pulls() const { return pulls_; }
 
  private:
+  using Sums = Space<S::dim>;  // of momenta
+
+  /// Adds the momenta that the impulse of a contact gives both bodies.
+  void add_momenta(const ContactsOf<Law, S>& contacts, std::size_t c) {
+    const Contact<S>& contact = contacts.points[c];
+    const auto& impulse = contacts.impulses[c];
+    if (impulse.isZero(0)) return;
+    const Vector in_world = contact.frame * linear<S>(impulse);
+    const typename Sums::Vector push = in_world.template cast<double>();
+    typename Sums::Twist &a = momenta_[contact.a], &b = momenta_[contact.b];
+    linear<Sums>(b) += push;
+    linear<Sums>(a) -= push;
+    angular<Sums>(b) += Sums::moment(contact.lever_b.template cast<double>(), push);
+    angular<Sums>(a) -= Sums::moment(contact.lever_a.template cast<double>(), push);
+    if constexpr (RollingLaw<Law, S>) {
+      const typename S::Angular turn = S::angular_frame(contact.frame) * angular<S>(impulse);
+      const typename Sums::Angular couple = turn.template cast<double>();
+      angular<Sums>(b) += couple;
+      angular<Sums>(a) -= couple;
+    }
+  }
   static void pull_body(const MobilityRoot<S>& root, const Vector& lever, const Vector& pull,
                         Twist& free) {
     linear<S>(free) += root.linear * (root.linear * pull);
@@ -126,6 +175,8 @@ class Attraction {
   std::vector<Scalar> pulls_before_;  // one per contact of the step before: the attraction [N]
   ContactsOf<Law, S> pushes_;         // see pushes_before()
   std::vector<Twist> changes_;        // one per body: by change()
+  std::vector<Twist> by_impulses_;    // one per body: by find_changes()
+  std::vector<typename Sums::Twist> momenta_;  // one per body: by the impulses
 };
 
 /// Under a law without attraction: does nothing.

@@ -326,9 +326,14 @@ class ImpulseDynamics {
     end_bonds(context, report);
   }
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
-  void find_velocities() {
+  void find_velocities([[maybe_unused]] const Context& context) {
+    [[maybe_unused]] bool attracted = false;
+    if constexpr (AttractiveLaw<Law, S>)
+      attracted = attraction_.find_changes(context.contacts, problem_.delassus, shared_.get());
     team_.share_each(roots_.size(), 256, [&](std::size_t i) {
       after_[i] = free_[i] + problem_.delassus.velocity_change(i);
+      if constexpr (AttractiveLaw<Law, S>)
+        if (attracted) after_[i] = unattracted_[i] + attraction_.change_of(i);
       if (!all_finite(after_[i]))
         throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
     });
@@ -352,7 +357,7 @@ class ImpulseDynamics {
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   std::vector<Twist> free_, after_;            // velocities without and with the impulses
-  std::vector<Twist> unattracted_;  // free_ without attraction, if steps can be repeated for bonds
+  std::vector<Twist> unattracted_;  // free_ without the attraction of the law, if it has one
   std::vector<MobilityRoot<S>> roots_;
   std::vector<unsigned char> touched_;  // by contacts
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
@@ -370,7 +375,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Con
   free_velocity<S>(integrator_, bodies, context.gravity, momentum_, free, context.step, team_);
   if (context.deforms())
     CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
-  if constexpr (bonding) unattracted_ = free_;
+  if constexpr (AttractiveLaw<Law, S>) unattracted_ = free_;
   if (!shared_) attract(context);
   report.ms_assemble += clock.lap();
 }
@@ -404,7 +409,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   report.approach = double(approach * context.step / context.margin);
   solve(context, report);
   report.ms_contacts += clock.lap();
-  find_velocities();
+  find_velocities(context);
 }
 
 template <class S, class Law, class Integrator, class Solver>
