@@ -267,6 +267,8 @@ class GroupKernel {
       Row u = point.free;
       for (std::size_t k = 0; k < S::dim; ++k)
         for (std::size_t d = 0; d < S::dim; ++d) u[d] += point.frame[k][d] * between[k];
+      if constexpr (CompliantLaw<Law, S>)
+        for (std::size_t d = 0; d < rows; ++d) u[d] += point.compliance[d] * point.impulse[d];
       sum.add(point, u, scale);
     }
   }

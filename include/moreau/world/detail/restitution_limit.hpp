@@ -105,11 +105,12 @@ class RestitutionLimit {
              const auto& springs, const auto& solver, auto& workspace, Scalar negligible,
              std::span<const typename S::Twist> free, SolveReport& report) {
     bounces_ = bounces();
-    if (!bounces_ && (!dissipates || all_lose(bodies, problem, free))) return;
+    if (!bounces_ && !dissipates) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
     bouncing_.resize(impulses.size());
     islands_.resize(bodies.size());
     if (sets_.size() != bodies.size()) sets_.assign(bodies.size());
+    if (!bounces_ && all_lose(bodies, problem, free)) return;
     negligible_ = negligible;
     measure(problem, impulses, springs, Scalar(0), bouncing_);
     if (!gains(bodies, problem)) return;
