@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "moreau/detect/polytope/detail/feature_axis.hpp"
 #include "moreau/detect/polytope/projection.hpp"
@@ -32,9 +31,7 @@ class FeatureComparison {
   /// @param direction  the unit vector n, from a to b, world axes
   /// @param slab       d - s plus an allowance for rounding [m]
   FeatureComparison(const PolytopePair<Polyhedron<T>>& pair, const Vector& direction, T slab)
-      : pair_(pair),
-        high_a_(find_high(pair.a, direction, slab)),
-        high_b_(find_high(pair.b, -direction, slab)) {}
+      : pair_(pair), high_a_(pair.a, direction, slab), high_b_(pair.b, -direction, slab) {}
 
   /// The axis of the nearest features. Its gap is infinite if there are none to compare.
   Axis<S> compare() {
@@ -46,15 +43,21 @@ class FeatureComparison {
   }
 
  private:
-  /// For each vertex, whether it lies at most `slab` [m] below the highest vertex along `up`.
-  static std::vector<bool> find_high(const Shape& shape, const Vector& up, T slab) {
-    std::vector<bool> is_high(shape.vertices().size());
-    const T lowest = shape.vertices().reach(up) - slab;
-    for (std::size_t v = 0; v < is_high.size(); ++v)
-      is_high[v] = up.dot(shape.vertices()[v]) >= lowest;
-    return is_high;
-  }
-  static bool is_high(const Edge& edge, const std::vector<bool>& high) {
+  /// Which vertices lie at most `slab` [m] below the highest vertex along `up`. It holds no memory: a step must not
+  /// allocate.
+  class HighVertices {
+   public:
+    HighVertices(const Shape& shape, const Vector& up, T slab)
+        : shape_(shape), up_(up), lowest_(shape.vertices().reach(up) - slab) {}
+    std::size_t size() const { return shape_.vertices().size(); }
+    bool operator[](std::size_t v) const { return up_.dot(shape_.vertices()[v]) >= lowest_; }
+
+   private:
+    const Shape& shape_;
+    const Vector up_;
+    const T lowest_;
+  };
+  static bool is_high(const Edge& edge, const HighVertices& high) {
     return high[edge.vertex[0]] || high[edge.vertex[1]];
   }
 
@@ -90,8 +93,8 @@ class FeatureComparison {
   }
   /// Compares each face of `own` with each vertex of `other` that projects onto the face.
   /// @param sign  1 if `own` is a, -1 if `own` is b
-  void compare_faces(const Shape& own, const std::vector<bool>& high_own, const Shape& other,
-                     const std::vector<bool>& high_other, const Vector& offset, T sign) {
+  void compare_faces(const Shape& own, const HighVertices& high_own, const Shape& other,
+                     const HighVertices& high_other, const Vector& offset, T sign) {
     for (std::uint32_t f = 0; f < own.normals().size(); ++f) {
       const auto loop = own.shape().face(f);
       if (std::none_of(loop.begin(), loop.end(), [&](auto v) { return high_own[v]; })) continue;
@@ -108,7 +111,7 @@ class FeatureComparison {
   }
 
   const PolytopePair<Polyhedron<T>>& pair_;
-  const std::vector<bool> high_a_, high_b_;
+  const HighVertices high_a_, high_b_;
   Axis<S> axis_;
 };
 
