@@ -137,8 +137,10 @@ void check(const Options& options) {
   CAPTURE(options.step);
   CAPTURE(options.tolerance);
   Block<ShapeT> block(options);
-  for (const char* time : {"at first", "after rest"}) {
-    CAPTURE(time);
+  // A float has roundings of the gap of 4e-9 m, through which the block falls at first, in steps of 1e-5 s in a few of them.
+  for (int k = 0; k < 100; ++k) block.push(0);
+  for (const bool again : {false, true}) {
+    CAPTURE(again);
     CHECK(block.threshold() == doctest::Approx(B::resting).epsilon(0.01));
     for (int k = 0; k < 20; ++k) {
       const double friction = block.push(0.42);
