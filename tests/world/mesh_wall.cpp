@@ -21,6 +21,7 @@
 #include "detect/mesh_surfaces.hpp"
 #include "io/temporary_folder.hpp"
 #include "world/mesh_floor.hpp"
+#include "world/tiles.hpp"
 
 namespace {
 
@@ -109,6 +110,13 @@ TEST_CASE_TEMPLATE("a grain that slides over a tessellated floor moves as over a
   CHECK(path > 0.1);
   MESSAGE("path " << path << " m, largest difference " << worst << " m");
   CHECK(worst < 1e-9);
+}
+
+TEST_CASE_TEMPLATE("polytopes slide over floors of tiles that are obstacles and meshes", P,
+                   Polyhedron<>, Polygon<>) {
+  const int directions = SpaceOf<P>::dim == 2 ? 42 : 84;
+  tiles::check_directions<World<P>, P, tiles::SlideOnMeshes>(tiles::polytopes<P, P>(), directions,
+                                                             1e-6);
 }
 
 TEST_CASE_TEMPLATE("a block on the edge of a table stays or tips as its centre says", ShapeT,

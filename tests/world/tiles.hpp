@@ -149,9 +149,40 @@ struct Slide {
   double v = 1, h = 1e-3, time = 0.3;
   double jitter = 0;  ///< of the heights of the tiles [m]
 };
+/// The same over tiles of which some are mesh walls in place of obstacles.
+struct SlideOnMeshes : Slide {
+  int meshes = 7;       ///< of every three tiles those with 1, 2, 4 of this number
+  bool sheets = false;  ///< whether these are the tops of tiles only
+};
 
-template <class WorldT, class P, class ShapeT>
-void check(const std::vector<Tile<P>>& floor, const Slider<ShapeT>& slider, const Slide& slide,
+/// The surface of a tile as a mesh, or its top, with the outside upwards.
+template <class P>
+moreau::FacetMesh<SpaceOf<P>> mesh_of(const P& tile, bool top) {
+  using S = SpaceOf<P>;
+  moreau::FacetMesh<S> mesh;
+  const auto& vertices = tile.vertices();
+  const auto n = std::size_t(vertices.rows());
+  const auto vertex = [&](std::size_t v) ->
+      typename S::Vector { return vertices.row(Eigen::Index(v)).transpose(); };
+  for (std::size_t v = 0; v < n; ++v) mesh.vertices.push_back(vertex(v));
+  const auto is_top = [&](auto... corners) {
+    const double highest = double(vertices.col(S::dim - 1).maxCoeff());
+    return ((double(vertex(corners)[S::dim - 1]) > highest - 1e-6) && ...);
+  };
+  const auto add = [&](auto... corners) {
+    if (!top || is_top(corners...)) mesh.facets.push_back({std::uint32_t(corners)...});
+  };
+  if constexpr (S::dim == 2)
+    for (std::size_t v = 0; v < n; ++v) add(v, (v + 1) % n);
+  else
+    for (std::size_t f = 0; f < tile.face_count(); ++f)
+      for (std::size_t k = 2; k < tile.face(f).size(); ++k)
+        add(tile.face(f)[0], tile.face(f)[k - 1], tile.face(f)[k]);
+  return mesh;
+}
+
+template <class WorldT, class P, class ShapeT, class SlideT>
+void check(const std::vector<Tile<P>>& floor, const Slider<ShapeT>& slider, const SlideT& slide,
            double tolerance) {
   using S = SpaceOf<P>;
   using T = typename S::Scalar;
@@ -169,12 +200,18 @@ void check(const std::vector<Tile<P>>& floor, const Slider<ShapeT>& slider, cons
   WorldT world(T(0.02), Materials<Law>(1, Law(T(0))));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> off(-slide.jitter, slide.jitter);
+  [[maybe_unused]] int number = 0;  // of a tile
   for (const Tile<P>& tile : floor) {
     const T way = tile.center.dot(along);
     Vector aside = tile.center - way * along;
     aside[S::dim - 1] = 0;
     if (way < T(-0.06) || way > T(slide.v * slide.time + 0.06) || aside.norm() > T(0.06)) continue;
     const Vector at = tile.center + T(off(random)) * up;
+    if constexpr (requires { slide.meshes; })
+      if ((slide.meshes >> (number++ % 3)) % 2 == 1) {
+        world.add_mesh_wall(mesh_of(tile.shape, slide.sheets), {Vector(q * at), q});
+        continue;
+      }
     world.prescribe_motion(
         world.add_grain(world.add_shape(as<ShapeT>(tile.shape)), {Vector(q * at), q}, T(1000)));
   }
@@ -196,6 +233,10 @@ void check(const std::vector<Tile<P>>& floor, const Slider<ShapeT>& slider, cons
   CAPTURE(slide.tilt);
   CAPTURE(slide.v);
   CAPTURE(slide.h);
+  if constexpr (requires { slide.meshes; }) {
+    CAPTURE(slide.meshes);
+    CAPTURE(slide.sheets);
+  }
   // Places are rounded to eps times 0.3 m. A gap that is wrong by that opens or closes within a step.
   const double hop = 4 * double(std::numeric_limits<T>::epsilon()) * 0.3 / slide.h;
   CHECK((moved - T(slide.v * slide.time) * along).norm() < tolerance + hop * slide.time);
@@ -205,14 +246,14 @@ void check(const std::vector<Tile<P>>& floor, const Slider<ShapeT>& slider, cons
 
 /// Slides in as many directions as given; floor, grain, tilt, speed and step change with the direction.
 /// @param tolerance of the place at the end, without rounding [m]
-template <class WorldT, class P, class ShapeT>
+template <class WorldT, class P, class SlideT = Slide, class ShapeT>
 void check_directions(const std::vector<Slider<ShapeT>>& sliders, int directions,
                       double tolerance) {
   constexpr bool plane = SpaceOf<P>::dim == 2;
   std::vector<std::vector<Tile<P>>> floors;
   for (const int kind : {0, 1, 2, 3}) floors.push_back(floor_of<P>(kind, kind == 0 ? 0.03 : 0.025));
   for (int k = 0; k < directions; ++k) {
-    Slide slide;
+    SlideT slide;
     slide.direction = plane ? k % 2 * std::numbers::pi : 2 * std::numbers::pi * k / directions;
     slide.turn = k % 3 == 2 ? 0.3 : 0;
     slide.tilt = k % 7 == 3 ? 0.3 : k % 7 == 5 ? -0.8 : 0;
@@ -220,6 +261,10 @@ void check_directions(const std::vector<Slider<ShapeT>>& sliders, int directions
     slide.h = k % 11 == 4 ? 2e-4 : 1e-3;
     slide.time = k % 11 == 4 ? 0.06 : 0.25;
     slide.jitter = sizeof(typename P::Scalar) == 4 ? 0 : k % 4 == 2 ? 1e-9 : 0;
+    if constexpr (requires { slide.meshes; }) {
+      slide.meshes = 1 + k % 7;
+      slide.sheets = k % 2 == 1;
+    }
     const auto& slider = sliders[std::size_t(k / 4) % sliders.size()];
     check<WorldT>(floors[std::size_t(k % 4)], slider, slide, tolerance);
   }

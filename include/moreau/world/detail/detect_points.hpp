@@ -94,7 +94,10 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
   team_.share_each(grains_.size(), least, [&](std::size_t k) {
     members_[runs_[k].finder].write(runs_[k], grains_[k].body.value, place_[k], out);
   });
-  internal_edges_.replace(grains_, bodies, lengths.resolution, lengths.margin, out);
+  const bool has_walls =
+      meshes_.size() > 0 && meshes_.size() + walls_.size() + cylinders_.size() > 1;
+  internal_edges_.replace(grains_, meshes_, has_walls, bodies, lengths.resolution, lengths.margin,
+                          out);
 }
 
 template <class ShapeT, class BroadPhaseT>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Internal edges: contacts of a grain with an obstacle that stands flush beside another one.
+// Internal edges: contacts of a grain with an obstacle or a mesh wall that ends flush beside another one.
 //
-// Obstacles whose tops lie in one plane, or the flush convex parts of a compound grain, are one surface for
+// Obstacles and walls whose tops lie in one plane, or the flush convex parts of a compound grain, are one surface for
 // a grain X that slides over them. But X overlaps the plane by rounding errors and by what the law leaves,
 // so that its corner meets the side of the next obstacle B, and would stop there. (Box2D: ghost vertices;
 // Jolt Physics and Bullet: internal edges.)
@@ -13,6 +13,8 @@
 //
 //   - makes more than 45 degrees with m, as that of a side of B, or
 //   - is that between two nearest vertices or edges.
+//
+// Of a mesh wall B is the face, ridge or vertex that X touches. The facets of one mesh have no internal edges (mesh_wall.hpp).
 //
 // Any step that is higher than the tolerance, a side wall, a ramp or a groove reaches above P and is left
 // as it is. If P of B separates X from C as well, both contacts stay. Only the geometry of the present step
@@ -44,32 +46,28 @@ class InternalEdges {
   using Vector = typename S::Vector;
 
   /// @param grains     ascending by body, with their placed shapes
+  /// @param meshes     the mesh walls
+  /// @param has_walls  whether there is another wall beside a mesh
   /// @param bodies     those whose motion is prescribed are obstacles
   /// @param resolution contact points closer together than this are merged; a fifth of it is the largest
   ///                   height of a step that counts as none [m]
   /// @param margin     largest gap of a contact [m]
   /// @param contacts   in: as detected; out: with contacts replaced or removed
-  void replace(const auto& grains, const Bodies<S>& bodies, Scalar resolution, Scalar margin,
-               DetectedContacts<S>& contacts) {
+  void replace(const auto& grains, const auto& meshes, bool has_walls, const Bodies<S>& bodies,
+               Scalar resolution, Scalar margin, DetectedContacts<S>& contacts) {
     const auto is_obstacle = [&](const auto& grain) {
       return bodies.is_prescribed(grain.body.index());
     };
-    const bool has_obstacles = std::any_of(grains.begin(), grains.end(), is_obstacle);
+    const bool has_obstacles = has_walls || std::any_of(grains.begin(), grains.end(), is_obstacle);
     if (!CompoundShape<ShapeT> && !has_obstacles) return;
     const Scalar flush = resolution / 5;
-    const auto placed_of = [&](std::uint32_t body) {
-      const BodyId id = bodies.id[body];
-      const auto found =
-          std::lower_bound(grains.begin(), grains.end(), id,
-                           [](const auto& grain, BodyId other) { return grain.body < other; });
-      return found != grains.end() && found->body == id ? &found->placed : nullptr;
-    };
+    const Reach reach{grains, meshes, bodies, contacts};
     find_views(bodies, has_obstacles, contacts);
     gone_.clear();
     found_.clear();
     for (std::size_t begin = 0, end = 0; begin < views_.size(); begin = end) {
       while (end < views_.size() && views_[end].is_beside(views_[begin])) ++end;
-      if (end > begin + 1) compare(begin, end, flush, placed_of, contacts);
+      if (end > begin + 1) compare(begin, end, flush, reach, contacts);
     }
     for (const Found& found : found_) apply(found, resolution, margin, contacts);
     if (!gone_.empty()) contacts.erase([&](std::size_t c) { return gone_[c] != 0; });
@@ -159,29 +157,64 @@ class InternalEdges {
     }
     return surface;
   }
-  /// How far a part of a grain reaches along a unit vector from the centre of the grain [m].
-  static Scalar reach(const Placed<ShapeT>& grain, [[maybe_unused]] std::uint32_t part,
-                      const Vector& direction) {
-    if constexpr (CompoundShape<ShapeT>)
-      return direction.dot(grain.part(part).center() - grain.center()) +
-             direction.dot(grain.part(part).support(direction));
-    else
-      return direction.dot(grain.support(direction));
-  }
+  /// How far the bodies of a contact reach along a unit vector, from their centres [m].
+  template <class Grains, class Meshes>
+  struct Reach {
+    const Grains& grains;
+    const Meshes& meshes;
+    const Bodies<S>& bodies;
+    const DetectedContacts<S>& contacts;
+
+    /// The placed shape of a grain, or null if the body is a wall.
+    const Placed<ShapeT>* placed(std::uint32_t body) const {
+      const BodyId id = bodies.id[body];
+      const auto found =
+          std::lower_bound(grains.begin(), grains.end(), id,
+                           [](const auto& grain, BodyId other) { return grain.body < other; });
+      return found != grains.end() && found->body == id ? &found->placed : nullptr;
+    }
+    std::uint32_t other(const View& view) const {
+      const ContactKey& key = contacts.keys[view.first];
+      return view.is_a ? key.b : key.a;
+    }
+    /// Whether two contacts of X are with facets of one mesh.
+    bool are_of_one_mesh(const View& s, const View& t) const {
+      return other(s) == other(t) && meshes.has(other(s));
+    }
+    /// The part of X that touches, or nothing if X is a wall.
+    std::optional<Scalar> of_x(const View& view, const Vector& direction) const {
+      const auto* x = placed(view.x);
+      return x ? std::optional(of_part(*x, view.part, direction)) : std::nullopt;
+    }
+    /// What X touches of the other body, or nothing if that is a plane or a cylinder.
+    std::optional<Scalar> of_other(const View& view, const Vector& direction) const {
+      const ContactKey& key = contacts.keys[view.first];
+      if (const auto* grain = placed(other(view)))
+        return of_part(*grain, view.is_a ? key.part_b : key.part_a, direction);
+      return meshes.reach(other(view), view.x, key.feature, direction);
+    }
+    static Scalar of_part(const Placed<ShapeT>& grain, [[maybe_unused]] std::uint32_t part,
+                          const Vector& direction) {
+      if constexpr (CompoundShape<ShapeT>)
+        return direction.dot(grain.part(part).center() - grain.center()) +
+               direction.dot(grain.part(part).support(direction));
+      else
+        return direction.dot(grain.support(direction));
+    }
+  };
   /// Height of X above, and of the other body below, along the normal of a surface [m].
   struct Heights {
     Scalar x, other;
   };
-  static Heights heights(const View& view, const Vector& normal, const auto& placed_of,
-                         const DetectedContacts<S>& contacts) {
+  static std::optional<Heights> heights(const View& view, const Vector& normal, const auto& reach,
+                                        const DetectedContacts<S>& contacts) {
+    const std::optional<Scalar> of_x = reach.of_x(view, -normal);
+    const std::optional<Scalar> of_other = reach.of_other(view, normal);
+    if (!of_x || !of_other) return std::nullopt;
     const Contact<S>& point = contacts.points[view.first];
-    const ContactKey& key = contacts.keys[view.first];
     const Vector between =
         view.is_a ? point.lever_a - point.lever_b : point.lever_b - point.lever_a;
-    const auto* x = placed_of(view.x);
-    const auto* other = placed_of(view.is_a ? key.b : key.a);
-    return {-reach(*x, view.part, -normal),
-            normal.dot(between) + reach(*other, view.is_a ? key.part_b : key.part_a, normal)};
+    return Heights{-*of_x, normal.dot(between) + *of_other};
   }
 
   /// Whether a normal can be that of an internal edge: of a side, or between two nearest vertices or edges
@@ -195,37 +228,35 @@ class InternalEdges {
     return found == ContactClass::vertex_vertex || found == ContactClass::vertex_edge ||
            found == ContactClass::edge_edge;
   }
-  /// Whether the surface of another contact separates X from the other body of a contact.
-  [[gnu::cold, gnu::noinline]] static bool is_separated(const View& view, const Surface& surface,
-                                                        Scalar flush, const auto& placed_of,
-                                                        const DetectedContacts<S>& contacts,
-                                                        Heights& found) {
-    const ContactKey& key = contacts.keys[view.first];
-    if (!placed_of(key.a) || !placed_of(key.b)) return false;  // a wall
-    found = heights(view, surface.normal, placed_of, contacts);
-    return found.other <= surface.height + flush &&
-           found.x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
+  /// The heights of a contact if the surface of another one separates X from the other body, or nothing.
+  [[gnu::cold, gnu::noinline]] static std::optional<Heights> separated(
+      const View& view, const Surface& surface, Scalar flush, const auto& reach,
+      const DetectedContacts<S>& contacts) {
+    const std::optional<Heights> found = heights(view, surface.normal, reach, contacts);
+    const bool is_separated = found && found->other <= surface.height + flush &&
+                              found->x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
+    return is_separated ? found : std::nullopt;
   }
-
   /// The contact to replace if another one's surface separates X from the other body, or nothing.
   /// @param t         index of the view, from begin to end
   /// @param kept_only whether surfaces of contacts that are replaced themselves do not count
   [[gnu::cold, gnu::noinline]] std::optional<Found> separating(
       std::size_t t, std::size_t begin, std::size_t end, bool kept_only, Scalar flush,
-      const auto& placed_of, const DetectedContacts<S>& contacts) const {
+      const auto& reach, const DetectedContacts<S>& contacts) const {
     const View& view = views_[t];
     const Vector normal = outward(view, contacts);
     std::optional<Found> best;
     for (std::size_t s = begin; s < end; ++s) {
-      if (s == t || (kept_only && is_replaced_[s - begin])) continue;
+      if (s == t || (kept_only && is_replaced_[s - begin]) ||
+          reach.are_of_one_mesh(views_[s], view))
+        continue;
       const Scalar cosine = normal.dot(outward(views_[s], contacts));
       if (!is_candidate(view, cosine, contacts)) continue;
       const Surface surface = surface_of(views_[s], contacts);
-      Heights found, of_other;
-      if (!is_separated(view, surface, flush, placed_of, contacts, found) ||
-          is_separated(views_[s], surface_of(view, contacts), flush, placed_of, contacts, of_other))
+      const std::optional<Heights> found = separated(view, surface, flush, reach, contacts);
+      if (!found || separated(views_[s], surface_of(view, contacts), flush, reach, contacts))
         continue;
-      const Scalar separation = found.x - found.other;
+      const Scalar separation = found->x - found->other;
       if (!best || separation > best->separation) best = {view, surface.normal, separation};
     }
     return best;
@@ -234,11 +265,11 @@ class InternalEdges {
   /// the side of a block can separate X from the block diagonal to it, but the contact with this side is
   /// replaced as well: surfaces of contacts that stay have precedence.
   [[gnu::cold, gnu::noinline]] void compare(std::size_t begin, std::size_t end, Scalar flush,
-                                            const auto& placed_of,
+                                            const auto& reach,
                                             const DetectedContacts<S>& contacts) {
     is_replaced_.assign(end - begin, 0);
     const auto find = [&](std::size_t t, bool kept_only) {
-      return separating(t, begin, end, kept_only, flush, placed_of, contacts);
+      return separating(t, begin, end, kept_only, flush, reach, contacts);
     };
     for (std::size_t t = begin; t < end; ++t) found_of_.push_back(find(t, false));
     for (std::size_t t = begin; t < end; ++t)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,8 +12,10 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pairs/collide_compound.hpp"
 #include "moreau/detect/pairs/collide_mesh_wall.hpp"
+#include "moreau/detect/pairs/mesh_neighbours.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/mesh/mesh_wall.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -48,6 +53,7 @@ class MeshWalls {
     detect_ = &MeshWalls::detect_all;
   }
   void clear() { walls_.clear(); }
+  std::size_t size() const { return walls_.size(); }
   /// Moves the walls to the poses of their bodies.
   void place(std::span<const Pose<S>> poses) {
     for (Wall& wall : walls_) {
@@ -60,6 +66,19 @@ class MeshWalls {
   void for_each_near(const Aabb<S>& box, Scalar margin, const auto& use) const {
     for (const Wall& wall : walls_)
       if (wall.box.overlaps(box.inflated(margin))) use(wall.body);
+  }
+  bool has(std::uint32_t body) const {
+    return find(body);
+  }  ///< whether the body is one of the meshes
+  /// How far the face, ridge or vertex of a mesh that a grain touches reaches from the centre of the mesh along a unit
+  /// vector [m]; nothing if the wall is no mesh. Of a face only the facets near the grain count.
+  /// @param wall,grain indices of the bodies
+  /// @param feature    of the contact, with the mesh as b
+  std::optional<Scalar> reach(std::uint32_t wall, std::uint32_t grain, FeatureKey feature,
+                              const Vector& direction) const {
+    const Wall* mesh = find(wall);
+    if (!mesh) return std::nullopt;
+    return mesh->reach(grain, feature, mesh->placed.pose.rotation.inverse() * direction);
   }
   /// How far from a grain a mesh counts.
   struct Reach {
@@ -85,8 +104,33 @@ class MeshWalls {
     PlacedFrame placed;
     Aabb<S> box;                          // world axes [m]
     std::vector<MeshNeighbours<S>> near;  // of every body, used by one thread at a time
+
+    // As reach() of MeshWalls, along a unit vector in the frame of the wall.
+    [[gnu::cold, gnu::noinline]] Scalar reach(std::uint32_t grain, FeatureKey feature,
+                                              const Vector& direction) const {
+      using Kind = FeatureKey::Kind;
+      Scalar most = -std::numeric_limits<Scalar>::infinity();
+      const auto add = [&](std::size_t v) {
+        most = std::max(most, Scalar(direction.dot(shape.vertex(v))));
+      };
+      if (feature.kind() == vertex_on_face(S{})) {
+        for (const NearFacet& facet : near[grain].facets())
+          if (facet.face == feature.b())
+            for (const std::uint32_t v : shape.facet(facet.place)) add(v);
+      } else if (feature.kind() == Kind::edge_edge || feature.kind() == Kind::vertex_edge) {
+        for (const std::uint32_t v : shape.ridge(feature.b()).vertices) add(v);
+      } else {
+        add(feature.b());
+      }
+      return most;
+    }
   };
 
+  const Wall* find(std::uint32_t body) const {
+    const auto found = std::find_if(walls_.begin(), walls_.end(),
+                                    [&](const Wall& wall) { return wall.body.index() == body; });
+    return found != walls_.end() ? &*found : nullptr;
+  }
   static void detect_all(MeshWalls& self, const GrainInWorld<ShapeT>& grain, const Reach& reach,
                          const Bodies<S>& bodies, const PairFilter& filter,
                          const PreviousContacts<S>& previous, MeshBuffers<ShapeT>& buffers,
