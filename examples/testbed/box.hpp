@@ -119,7 +119,7 @@ class Box final : public Scene<ShapeT> {
 
   void check(const Settings& settings) const override {
     (void)force(settings);
-    require_positive(settings.wall_mass, "testbed", "wall_mass");
+    moreau::require_positive(settings.wall_mass, "testbed", "wall_mass");
   }
   void adopt() override {
     if (stage_ == Stage::closing) set_lid_speed();
