@@ -71,4 +71,31 @@ void solver(const V& solver, double tolerance) {
   CHECK(report.sweeps == 0);
 }
 
+/// Checks on random assemblies under one law, which may have couples and springs:
+///   - The solver reaches its tolerance, or the report says that it did not.
+///   - The residual that it reports equals the residual that is measured afterwards, up to rounding.
+///   - Started from a solution, it needs no more sweeps.
+/// @param tolerance of the solver for the residual of the natural map
+/// @returns number of problems that were solved, of two
+template <class S, class Law, class V>
+requires moreau::ContactSolver<V, Law, S>
+int solver_under(const Law& law, const V& solver, double tolerance) {
+  constexpr double rounding = 1e4 * double(std::numeric_limits<typename S::Scalar>::epsilon());
+  int solved = 0;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    solve_test::AssemblyUnder<S, Law> problem(seed, law);
+    std::vector<typename solve_test::AssemblyUnder<S, Law>::Row> impulses;
+    const moreau::SolveReport report = problem.solve(solver, impulses);
+    CHECK(report.converged == (report.residual <= tolerance && report.unsolved_islands == 0));
+    CHECK(report.capped == !report.converged);
+    CHECK(std::abs(report.residual - problem.measure(impulses).residual) <= rounding);
+    if (!report.converged) continue;
+    ++solved;
+    const moreau::SolveReport again = problem.solve(solver, impulses);
+    CHECK(again.converged);
+    CHECK(again.sweeps <= report.sweeps);
+  }
+  return solved;
+}
+
 }  // namespace conformance

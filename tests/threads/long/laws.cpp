@@ -73,7 +73,7 @@ TEST_CASE("1, 2, 3, 4 and 8 threads: shapes mixed, walls of triangles, a cylinde
   for (const int threads : team_sizes) CHECK(mixed(eager(threads)) == alone);
 }
 
-TEST_CASE_TEMPLATE("1, 2, 3, 4 and 8 threads: every law", ShapeT, Disk<double>,
+TEST_CASE_TEMPLATE("1, 2, 3, 4 and 8 threads: every law", ShapeT, Disk<double>, Ball<double>,
                    Polyhedron<double>) {
   check_bits<ShapeT>(Frictionless<>(0.2));
   check_bits<ShapeT>(SignoriniCoulomb<>(0.4, 0.1, 0.5));
