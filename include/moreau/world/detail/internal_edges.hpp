@@ -53,7 +53,8 @@ class InternalEdges {
   ///                   height of a step that counts as none [m]
   /// @param margin     largest gap of a contact [m]
   /// @param contacts   in: as detected; out: with contacts replaced or removed
-  void replace(const auto& grains, const auto& meshes, bool has_walls, const Bodies<S>& bodies,
+  template <class Grains, class Meshes>
+  void replace(const Grains& grains, const Meshes& meshes, bool has_walls, const Bodies<S>& bodies,
                Scalar resolution, Scalar margin, DetectedContacts<S>& contacts) {
     const auto is_obstacle = [&](const auto& grain) {
       return bodies.is_prescribed(grain.body.index());
@@ -61,7 +62,7 @@ class InternalEdges {
     const bool has_obstacles = has_walls || std::any_of(grains.begin(), grains.end(), is_obstacle);
     if (!CompoundShape<ShapeT> && !has_obstacles) return;
     const Scalar flush = resolution / 5;
-    const Reach reach{grains, meshes, bodies, contacts};
+    const Reach<Grains, Meshes> reach{grains, meshes, bodies, contacts};
     find_views(bodies, has_obstacles, contacts);
     gone_.clear();
     found_.clear();
