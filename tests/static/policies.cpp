@@ -4,6 +4,7 @@
 #include <span>
 
 #include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
@@ -80,9 +81,26 @@ struct HasFriction : archetypes::MinimalLaw {
 };
 struct SaysCoulomb : HasFriction {
   static constexpr bool is_coulomb = true;
+  double friction() const;
+  S::Vector solve(const moreau::LocalBlock<S>& block, const S::Vector& b,
+                  const S::Vector& guess) const;
 };
 static_assert(!moreau::CoulombLaw<HasFriction, moreau::Space<3>>);
 static_assert(moreau::CoulombLaw<SaysCoulomb, moreau::Space<3>>);
+/// A law that derives from Coulomb's is solved like it, unless it has another solve().
+struct Named : moreau::SignoriniCoulomb<> {};
+template <class S>
+struct OwnSolution : moreau::SignoriniCoulomb<> {
+  typename S::Vector solve(const moreau::LocalBlock<S>& block, const typename S::Vector& b,
+                           const typename S::Vector& guess) const;
+};
+static_assert(moreau::CoulombLaw<Named, Space<2>> && moreau::LaneLaw<Named, Space<2>>);
+using Own = OwnSolution<Space<3>>;
+static_assert(SetValuedLaw<Own, Space<3>> && moreau::PointLaw<Own, Space<3>>);
+static_assert(!moreau::CoulombLaw<Own, Space<3>> && !moreau::LaneLaw<Own, Space<3>>);
+static_assert(!moreau::LaneLaw<moreau::Compliant<Own>, Space<3>>);
+static_assert(moreau::LaneLaw<moreau::Compliant<>, Space<3>> &&
+              moreau::LaneLaw<moreau::Cohesive<Rolling>, Space<2>>);
 /// A law of a user with an attraction: a contact has one attraction.
 struct Sticky : archetypes::MinimalLaw {
   double attraction(double gap) const;

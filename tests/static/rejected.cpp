@@ -289,6 +289,22 @@ using Law = moreau::SignoriniCoulomb<EITHER(float, double)>;
 moreau::Simulation<moreau::Ball<double>, Law> simulation(0.01, moreau::Materials<Law>(1));
 #endif  // law_of_another_scalar
 
+#ifdef share_of_another_scalar
+// A function of an optional concept with another type: the law would do without it.
+// expect: Law has tangential_share\(\), but is no TangentialRestitutionLaw
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Springy : moreau::SignoriniCoulomb<> {
+  EITHER(float, double) tangential_share(double, double) const { return 0; }
+};
+const moreau::Simulation<moreau::Ball<>, Springy> simulation(0.01,
+                                                             moreau::Materials<Springy>(1,
+                                                                                        Springy()));
+#endif  // share_of_another_scalar
+
 #ifdef forces_under_moreau_jean
 // A regularized law with an integrator of impulses.
 // expect: a regularized law gives forces, which an integrator of impulses such as MoreauJean

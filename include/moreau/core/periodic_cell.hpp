@@ -245,8 +245,8 @@ class PeriodicCell {
       require(!is_periodic(axis) || std::abs(normal[axis]) <= Scalar(1e-5), function, "normal",
               normal, "must be perpendicular to the periodic axes");
   }
-  /// Checks that a cylinder wall does not bound a periodic axis.
-  /// @param axis     axis of the cylinder, unit, world axes. In the plane it is the normal of the
+  /// Checks that a surface around an axis does not bound a periodic axis.
+  /// @param axis     axis of the surface, unit, world axes. In the plane it is the normal of the
   ///                 plane, so that the wall bounds all axes
   /// @param function the public function that the caller of the library called, for error messages
   /// @throws std::invalid_argument if the wall bounds a periodic axis

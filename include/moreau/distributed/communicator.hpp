@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/error.hpp"
+
 namespace moreau {
 
 /// Starts MPI in its constructor, unless it runs already, and ends it in its destructor. Make one at
@@ -32,7 +34,7 @@ class MpiSession {
     MPI_Initialized(&runs);
     mine_ = runs == 0;
     // Threads of a team share the work of a step; the thread of main() alone sends messages.
-    int given = 0;
+    int given = 0;  // level of threads; FUNNELED is the least that a threaded program can have
     if (mine_) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
   }
   ~MpiSession() {
@@ -50,7 +52,7 @@ class MpiSession {
 struct Traffic {
   std::uint64_t messages = 0;     ///< from this process to one other
   std::uint64_t bytes = 0;        ///< in these messages
-  std::uint64_t collectives = 0;  ///< sums, largest values, broadcasts
+  std::uint64_t collectives = 0;  ///< sums, largest values, broadcasts, exchanges
   double seconds = 0;  ///< in messages and operations, with the time of waiting for others
 
   /// The traffic since `before`.
@@ -61,7 +63,7 @@ struct Traffic {
 };
 
 /// A communicator of its own with the processes of another one. All processes call its functions in
-/// the same order.
+/// the same order. It must end before MPI does (MpiSession).
 class Communicator {
  public:
   /// Duplicates `processes`, so that messages do not meet those of the user. All processes call it.
@@ -98,6 +100,7 @@ class Communicator {
 
   /// Sends the bytes of rank 0 to all processes.
   void broadcast(std::string& bytes) {
+    const Watch watch(traffic_.seconds);
     auto count = static_cast<std::uint64_t>(bytes.size());
     MPI_Bcast(&count, 1, MPI_UINT64_T, 0, handle_);
     bytes.resize(count);
@@ -106,12 +109,16 @@ class Communicator {
     ++traffic_.collectives;
   }
   /// Sends bytes from every process to every other one.
-  /// @param out one string per rank
+  /// @param out one string per rank: size() of them
   /// @returns what each rank has sent to this one
   std::vector<std::string> exchange(std::vector<std::string> out) {
+    MOREAU_ASSERT(out.size() == std::size_t(size_));
     std::vector<std::uint64_t> sizes, coming(out.size());
     for (const std::string& one : out) sizes.push_back(one.size());
-    MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, handle_);
+    {
+      const Watch watch(traffic_.seconds);
+      MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, handle_);
+    }
     ++traffic_.collectives;
     std::vector<std::string> in(out.size());
     in[std::size_t(rank_)] = std::move(out[std::size_t(rank_)]);

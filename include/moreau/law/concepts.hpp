@@ -43,7 +43,7 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
 /// Optional: see ActsWhereGapsClose, AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, CoulombLaw,
-/// TangentialRestitutionLaw, StatefulLaw, LaneLaw, MapsLanes.
+/// TangentialRestitutionLaw, StatefulLaw, StaticFrictionLaw, LaneLaw, MapsLanes.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -66,6 +66,24 @@ Vector natural_map(const L& law, const Vector& u, const Vector& r, typename Vect
 
 }  // namespace detail
 
+namespace detail {
+
+/// The class that has a member function.
+template <class C, class R>
+C class_of(R (C::*)() const);
+template <class T>
+void accept(T);
+/// Whether solve() of a law is that of the class C, as a rule one from which the law derives. A law that derives from
+/// another one and has a solve() of its own does not inherit other solutions of the local problem.
+template <class L, class S, class C>
+concept SolvesAs = requires {
+  detail::accept<typename BlockOf<L, S>::Vector (C::*)(
+      const BlockOf<L, S>&, const typename BlockOf<L, S>::Vector&,
+      const typename BlockOf<L, S>::Vector&) const>(&L::solve);
+};
+
+}  // namespace detail
+
 /// A set-valued law without couples: D rows per contact.
 template <class L, class S>
 concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
@@ -75,11 +93,13 @@ concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
 /// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
 /// coefficients of friction define the contact problem, and other methods than its solve() may solve it. It says so by
-/// `static constexpr bool is_coulomb = true`. A law that derives from one and has another local problem must say false.
+/// `static constexpr bool is_coulomb = true`. A law that derives from one is one unless it has a solve()
+/// of its own.
 template <class L, class S>
 concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
   { law.friction() } -> std::convertible_to<double>;
   requires L::is_coulomb;
+  requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::friction))>;
 };
 
 /// A law under which a contact with a gap g > 0 acts only if g + h u_n < 0, u_n being its velocity at the end of the step
@@ -102,14 +122,27 @@ concept Attracts = requires {
 };
 }  // namespace detail
 
+/// A law that depends on what the contact did in the step before, such as static friction.
+///
+/// - variants: number of its variants; variant(k), k < variants: the law of a step. A new contact has k = 0.
+/// - variant_after(k, impulse): the k of the next step, from the k of this step and the impulse that
+///   solves variant(k) [N s], in the frame of the contact
+template <class L, class S>
+concept StatefulLaw = SetValuedLaw<L, S> &&
+    requires(const L law, typename S::Vector impulse, std::size_t k) {
+  { law.variant_after(k, impulse) } -> std::same_as<std::size_t>;
+  { law.variant(k) } -> std::same_as<L>;
+  L::variants;
+};
+
 /// A law whose bodies attract each other through a bridge that forms when they touch and breaks at a gap; see
-/// bridges.hpp. Its memory is the variant: StatefulLaw with the functions
+/// bridges.hpp. Its memory is the variant: it is a StatefulLaw with the functions
 ///
 /// - reach(): the largest gap with a bridge [m]
 /// - is_bridged(k): whether variant k has a bridge; with_bridge(k, bridged): variant k with or without it
 /// - bridge_force(gap, radius): the attraction of the pair >= 0 [N]; radius = 2 / (1/R_a + 1/R_b), the radii without half of the gap [m]
 template <class L, class S>
-concept BridgingLaw = SetValuedLaw<L, S> &&
+concept BridgingLaw = StatefulLaw<L, S> &&
     requires(const L law, typename S::Scalar length, std::size_t k) {
   { law.reach() } -> std::same_as<typename S::Scalar>;
   { law.bridge_force(length, length) } -> std::same_as<typename S::Scalar>;
@@ -117,14 +150,14 @@ concept BridgingLaw = SetValuedLaw<L, S> &&
   { L::with_bridge(k, true) } -> std::same_as<std::size_t>;
 };
 
-/// A law with bonds; see bonded.hpp. It has couples, and the variants without and with a bond: StatefulLaw with
+/// A law with bonds; see bonded.hpp. It has couples, and the variants without and with a bond: it is a StatefulLaw with
 ///
 /// - is_bonded(k): whether variant k has a bond
 /// - strength(): of a bond; its tension T is an attraction, so that the local problem is that of p = r + h T n
 /// - yields(p): whether the impulse of a bond lies at the limit of the law [N s]
 /// - softening(w): share of its strength that a bond loses per unit of time that yields with the velocity w [1/s]
 template <class L, class S>
-concept BondingLaw = SetValuedLaw<L, S> && Rolls<L> &&
+concept BondingLaw = StatefulLaw<L, S> && Rolls<L> &&
     requires(const L law, typename BlockOf<L, S>::Vector p, std::size_t k) {
   { L::is_bonded(k) } -> std::same_as<bool>;
   { law.yields(p) } -> std::same_as<bool>;
@@ -163,19 +196,6 @@ concept TangentialRestitutionLaw = PointLaw<L, S> &&
   { law.tangential_share(scalar, scalar) } -> std::same_as<typename S::Scalar>;
 };
 
-/// A law that depends on what the contact did in the step before, such as static friction.
-///
-/// - variants: number of its variants; variant(k), k < variants: the law of a step. A new contact has k = 0.
-/// - variant_after(k, impulse): the k of the next step, from the k of this step and the impulse that
-///   solves variant(k) [N s], in the frame of the contact
-template <class L, class S>
-concept StatefulLaw = SetValuedLaw<L, S> &&
-    requires(const L law, typename S::Vector impulse, std::size_t k) {
-  { law.variant_after(k, impulse) } -> std::same_as<std::size_t>;
-  { law.variant(k) } -> std::same_as<L>;
-  L::variants;
-};
-
 /// A stateful law whose friction is larger at a contact that does not slide. An impulse on the cone is no proof of slip: after
 /// variant_after() the simulation gives contacts that do not slide the variant at rest; world/detail/sliding_points.hpp has the
 /// conditions.
@@ -203,7 +223,8 @@ constexpr std::size_t variants_of() {
 template <class L, class S>
 using LaneBlockOf = std::conditional_t<Rolls<L>, RoundBlock<S>, LaneBlock<S>>;
 
-/// A law that also solves the local problems of several contacts at once, one per SIMD lane.
+/// A law that also solves the local problems of several contacts at once, one per SIMD lane. A law that derives from one is
+/// one unless it has a solve() of its own.
 ///
 /// - lane_parameters(): an array of the parameters of the local problem, in units of the law
 /// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or one step
@@ -215,6 +236,7 @@ concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<
                                                  const typename LaneBlockOf<L, S>::Vector vector,
                                                  typename LaneBlockOf<L, S>::Memory memory) {
   std::tuple_size<decltype(law.lane_parameters())>::value;
+  requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::lane_parameters))>;
   {
     L::solve_lanes(block, vector, vector,
                    std::array<typename LaneBlock<S>::Values,

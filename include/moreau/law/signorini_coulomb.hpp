@@ -126,7 +126,7 @@ class SignoriniCoulomb {
       typename LaneBlock<S>::Values& memory, bool polish) {
     return detail::CoulombLanes<S>::solve(block, b, parameters[0], memory, polish);
   }
-  /// See LaneLaw.
+  /// See MapsLanes.
   template <class S>
   static typename LaneBlock<S>::Vector natural_map_lanes(
       const typename LaneBlock<S>::Vector& u, const typename LaneBlock<S>::Vector& r,

@@ -28,7 +28,8 @@
 
 namespace moreau {
 
-/// The defects of a mesh, in the order in which they are tested.
+/// The defects of a mesh, roughly in the order in which they are tested: of defects of single facets the first facet
+/// decides.
 enum class MeshDefect : std::uint8_t {
   empty,           ///< no facet; for a solid fewer than D + 1
   not_finite,      ///< a coordinate is infinite or not a number
@@ -52,9 +53,10 @@ constexpr const char* name(MeshDefect defect) {
 
 /// The first fault of a mesh.
 struct MeshFault {
-  MeshDefect defect;      ///< what is wrong
-  std::size_t facet = 0;  ///< where it was found
-  std::string message;    ///< names the facet, with its corners, and the requirement
+  MeshDefect defect;  ///< what is wrong
+  std::size_t facet =
+      0;  ///< where it was found; the number of facets for a vertex of no facet, 0 for an empty mesh
+  std::string message;  ///< names the facet, with its corners, and the requirement
 };
 
 namespace detail {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/error.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/shape/mass_properties.hpp"
 #include "moreau/shape/moments.hpp"

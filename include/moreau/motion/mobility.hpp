@@ -53,8 +53,8 @@ class InverseMass {
       if (x != 0) return true;
     return false;
   }
-  /// Whether the mass of the body is the same along all axes. That of a wall is not: it moves along
-  /// one.
+  /// Whether the mass of the body is the same along all axes. That of a wall
+  /// with a mass is not: it moves along one.
   bool is_isotropic() const {
     constexpr Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon();
     Scalar largest = 0;

@@ -149,7 +149,8 @@ std::vector<Pose<S>> random_deposition(
       } while (!on_floor(x, radii[i]) && ++attempt < attempts);
       if (attempt == attempts)
         throw_invalid(self, "radii[" + std::to_string(i) + "]", radii[i],
-                      "must leave room above the floor: no place was found in 1000 attempts");
+                      "must leave room above the floor: no place was found in " +
+                          std::to_string(attempts) + " attempts");
       x[up] = deposited.height_at(x, radii[i]);
       if (trial == 0 || x[up] < lowest[up]) lowest = x;
     }
@@ -170,6 +171,15 @@ std::vector<Pose<S>> random_deposition(
                               [](const typename S::Vector&, typename S::Scalar) { return true; });
 }
 
+/// The same above a floor of one length along all horizontal axes [m].
+template <class S>
+std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& radii,
+                                       typename S::Scalar length, std::mt19937_64& random) {
+  std::array<typename S::Scalar, std::size_t(S::dim - 1)> lengths;
+  lengths.fill(length);
+  return random_deposition<S>(radii, lengths, random);
+}
+
 /// A round floor for random_deposition(), such as that of an upright cylinder; in the plane the whole length.
 /// @param diameter [m]; pass the same length along all axes of the box
 /// @returns the function `on_floor`, for a circle around the middle of the floor
@@ -182,15 +192,6 @@ auto round_floor(typename S::Scalar diameter) {
     const typename S::Scalar reach = diameter / 2 - radius;
     return square <= reach * reach;
   };
-}
-
-/// The same above a floor of one length along all horizontal axes [m].
-template <class S>
-std::vector<Pose<S>> random_deposition(const std::vector<typename S::Scalar>& radii,
-                                       typename S::Scalar length, std::mt19937_64& random) {
-  std::array<typename S::Scalar, std::size_t(S::dim - 1)> lengths;
-  lengths.fill(length);
-  return random_deposition<S>(radii, lengths, random);
 }
 
 }  // namespace moreau

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/law/concepts.hpp"
@@ -13,6 +14,28 @@
 #include "moreau/world/detail/force_dynamics.hpp"
 
 namespace moreau::detail {
+
+/// Whether a set-valued law has a function of an optional concept. With wrong types the concept would be absent without a word.
+template <class Law, class S>
+struct NamesOf {
+  using Scalar = typename S::Scalar;
+  static constexpr bool attraction = requires(const Law law, Scalar x) { law.attraction(x); };
+  static constexpr bool springs = requires(const Law law) { law.normal_compliance(); };
+  static constexpr bool share = requires(const Law law, Scalar x) { law.tangential_share(x, x); };
+  static constexpr bool bridges = requires { Law::is_bridged(std::size_t{}); };
+  static constexpr bool bonds = requires { Law::is_bonded(std::size_t{}); };
+  static constexpr bool coulomb = requires { requires Law::is_coulomb; };
+  static constexpr bool lanes = requires(const Law law) { law.lane_parameters(); };
+  /// Whether the lanes are those of the class that has solve().
+  static constexpr bool own_lanes = requires {
+    requires SolvesAs<Law, S, decltype(class_of(&Law::lane_parameters))>;
+  };
+};
+template <class Law, class S>
+requires(!SetValuedLaw<Law, S>) struct NamesOf<Law, S> {
+  static constexpr bool attraction = false, springs = false, share = false, bridges = false,
+                        bonds = false, coulomb = false, lanes = false, own_lanes = false;
+};
 
 /// Does not compile for policies that do not fit together.
 template <class S, class Law, class Integrator, class Broad, class Solver>
@@ -26,6 +49,28 @@ struct Policies {
       "Simulation: Law offers neither the functions velocity_offset, solve and natural_map "
       "(SetValuedLaw) nor the function force (RegularizedLaw) for the dimension and the scalar of "
       "the shape; static_assert the concept to see what is missing");
+  using Has = NamesOf<Law, S>;
+  static_assert(!Has::attraction || AttractiveLaw<Law, S>,
+                "Simulation: Law has attraction(), but is no AttractiveLaw; static_assert the "
+                "concept to see what is missing");
+  static_assert(!Has::springs || CompliantLaw<Law, S>,
+                "Simulation: Law has normal_compliance(), but is no CompliantLaw; static_assert "
+                "the concept to see what is missing");
+  static_assert(!Has::share || TangentialRestitutionLaw<Law, S>,
+                "Simulation: Law has tangential_share(), but is no TangentialRestitutionLaw; "
+                "static_assert the concept to see what is missing");
+  static_assert(!Has::bridges || BridgingLaw<Law, S>,
+                "Simulation: Law has is_bridged(), but is no BridgingLaw; static_assert the "
+                "concept to see what is missing");
+  static_assert(!Has::bonds || BondingLaw<Law, S>,
+                "Simulation: Law has is_bonded(), but is no BondingLaw; static_assert the concept "
+                "to see what is missing");
+  static_assert(!Has::own_lanes || LaneLaw<Law, S>,
+                "Simulation: Law has lane_parameters(), but is no LaneLaw; static_assert the "
+                "concept to see what is missing");
+  static_assert(!(Has::coulomb || Has::lanes) || SolvesAs<Law, S, Law>,
+                "Simulation: the function solve() of a law with is_coulomb or lanes must be one "
+                "const member function (or template) whose parameters are references to const");
   static_assert(
       !(CompliantLaw<Law, S> && TangentialRestitutionLaw<Law, S>),
       "Simulation: Compliant<TangentialRestitution> would have two tangential restitutions, "
