@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -166,4 +167,41 @@ TEST_CASE_TEMPLATE("loads of any size have finite impulses in the cone", S,
         CHECK(std::isfinite(double(r[0][0])));
         CHECK(tangential <= 0.51 * double(r[0][0]) + 1e-38);
       }
+}
+
+TEST_CASE_TEMPLATE("the square root of lanes is that of numbers", T, double, float) {
+  using Limits = std::numeric_limits<T>;
+  std::mt19937_64 random(17);
+  const auto check = [&]<class Lanes>(Lanes, T x) {
+    const auto root = Lanes::square_root(Lanes::broadcast(x));
+    for (std::size_t l = 0; l < std::size_t{Lanes::lanes}; ++l) CHECK(root[l] == std::sqrt(x));
+  };
+  const auto check_all = [&](T x) {
+    check(detail::Wide<T, 16>(), x);
+    check(detail::Wide<T, detail::register_bytes>(), x);
+    check(detail::Wide<T, detail::widest_bytes>(), x);
+  };
+  for (const T x :
+       {T(0), T(1), Limits::denorm_min(), Limits::min(), Limits::max(), Limits::infinity()})
+    check_all(x);
+  for (int i = 0; i < 100; ++i)
+    check_all(static_cast<T>(std::ldexp(1 + double(random() % 1000) / 1000, i - 50)));
+}
+
+// Two balls on an axis: what mixes the tangents is then zero or a rounding, and the cotangent of twice the angle of
+// their turn has a square that is not finite in single precision.
+TEST_CASE_TEMPLATE("tangents that hardly mix are turned by a finite angle", S,
+                   MOREAU_TYPES((Space<3>), (Space<3, float>))) {
+  using T = typename S::Scalar;
+  using Number = typename LaneBlock<S>::Number;
+  for (double mixed = 1; mixed > 1e-40; mixed /= 10) {
+    const std::array<T, 6> w{T(1), T(0), T(2), T(0), static_cast<T>(1e-3 * mixed), T(3)};
+    std::array<typename Number::Values, 6> lanes;
+    for (std::size_t k = 0; k < 6; ++k) lanes[k] = Number::broadcast(w[k]);
+    const auto aligned = detail::aligned_block<S, Number>(lanes);
+    INFO("mixed by ", mixed);
+    CHECK(double(aligned.block.slip[0][0]) == doctest::Approx(2).epsilon(1e-5));
+    CHECK(double(aligned.block.slip[1][0]) == doctest::Approx(3).epsilon(1e-5));
+    CHECK(double(aligned.turn[0][0][0]) == doctest::Approx(1).epsilon(1e-5));
+  }
 }

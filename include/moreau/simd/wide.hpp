@@ -111,7 +111,22 @@ struct Wide {
     for (int l = 0; l < lanes; ++l) bits |= std::uint32_t{mask[l] != 0} << l;
     return bits;
   }
+  /// As std::sqrt, correctly rounded. The square root that Eigen has for registers of floats, and for those of AVX-512, is
+  /// an approximation: of infinity it makes NaN, of denormal numbers 0, and its last bit depends on the CPU.
   static Values square_root(const Values& v) {
+    constexpr bool floats = sizeof(T) == 4;
+#if defined(EIGEN_VECTORIZE_AVX512)
+    if constexpr (Bytes == 64 && floats)
+      return bits_of<Values>(_mm512_sqrt_ps(bits_of<__m512>(v)));
+    else if constexpr (Bytes == 64)
+      return bits_of<Values>(_mm512_sqrt_pd(bits_of<__m512d>(v)));
+#endif
+#if defined(EIGEN_VECTORIZE_AVX)
+    if constexpr (Bytes == 32 && floats) return bits_of<Values>(_mm256_sqrt_ps(bits_of<__m256>(v)));
+#endif
+#if defined(EIGEN_VECTORIZE_SSE2)
+    if constexpr (Bytes == 16 && floats) return bits_of<Values>(_mm_sqrt_ps(bits_of<__m128>(v)));
+#endif
     Eigen::Array<T, lanes, 1> a;
     std::memcpy(a.data(), &v, sizeof v);
     return load(Eigen::Array<T, lanes, 1>(a.sqrt()).data());
@@ -146,6 +161,13 @@ struct Wide {
   }
 
  private:
+  /// Another type for the same register.
+  template <class To, class From>
+  static To bits_of(const From& from) {
+    To to;
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+  }
   /// In every square of 2 Size rows and lanes, swaps the two off-diagonal blocks.
   template <int Size>
   static void transpose(Values (&rows)[std::size_t{lanes}]) {
