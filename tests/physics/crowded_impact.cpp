@@ -9,6 +9,7 @@
 #include "moreau/measure/energy.hpp"
 #include "moreau/shape/ball.hpp"
 
+#include "physics/bouncing_grains.hpp"
 #include "sanitized.hpp"
 #include "world/assemblies.hpp"
 
@@ -129,5 +130,25 @@ TEST_CASE("a heavy disk that squeezes light ones gains no energy without a word"
         CAPTURE(restitution);
         CAPTURE(seed);
         CHECK(count_silent_gains(tolerance, restitution, steps, seed) == 0);
+      }
+}
+
+TEST_CASE_TEMPLATE("impacts under gravity gain no energy", ShapeT, Disk<double>,
+                   moreau::Ball<double>) {
+  const std::vector<ShapeT> shapes = {ShapeT(0.01), ShapeT(0.008)};
+  bouncing::Box box;
+  box.steps = rounds(300);
+  for (const double restitution : {0.3, 0.7, 1.0})
+    for (const double friction : {0.0, 0.5})
+      for (const double ratio : {1.0, 1e4}) {
+        box.restitution = restitution, box.friction = friction, box.mass_ratio = ratio;
+        const bouncing::Tally tally = bouncing::count<scenes::World<ShapeT>>(box, shapes);
+        CAPTURE(restitution);
+        CAPTURE(friction);
+        CAPTURE(ratio);
+        CHECK(tally.worst <= 1e-9);
+        CHECK(tally.unsolved <= 3);
+        // Without friction elastic impacts keep the energy.
+        if (restitution == 1 && friction == 0) CHECK(std::abs(tally.kept - 1) <= 1e-9);
       }
 }

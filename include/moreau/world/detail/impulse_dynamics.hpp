@@ -272,7 +272,7 @@ class ImpulseDynamics {
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
           RestitutionLimit<S, Law>::negligible_velocity(context.grain_size, context.step),
           bodies_alone(context) ? std::span<const Twist>(free_) : std::span<const Twist>(),
-          report.solve);
+          [&](std::size_t c) { return forced(context, c); }, report.solve);
     if (cell_.moves(context)) cell_.leave(context, problem_.delassus);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
@@ -295,6 +295,23 @@ class ImpulseDynamics {
   /// Whether the relative velocities of contacts without impulses are those of free_, but for the offsets of the laws.
   static bool bodies_alone(const Context& context) {
     return !AttractiveLaw<Law, S> && context.chords.empty() && !context.deforms();
+  }
+  /// What the external forces of the step and the attraction add to the relative velocity of contact c, a row of the
+  /// operator [m/s].
+  Row forced(const Context& context, std::size_t c) const {
+    const auto twist = [&](std::size_t i) {
+      Twist change = free_[i] - context.bodies.velocity[i];
+      // The inertia turns, too: the spin changes without a torque.
+      angular<S>(change) = problem_.delassus.inverse_mass(i).spin_of(
+          typename S::Angular(context.step * angular<S>(context.bodies.force[i])));
+      if constexpr (AttractiveLaw<Law, S>)
+        angular<S>(change) += angular<S>(free_[i]) - angular<S>(unattracted_[i]);
+      return change;
+    };
+    const auto [a, b] = problem_.delassus.bodies(c);
+    Row row = problem_.delassus.rows_of(c, twist(a), twist(b));
+    if (cell_.moves(context)) row += cell_.forced(context, c, problem_.delassus);
+    return row;
   }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {

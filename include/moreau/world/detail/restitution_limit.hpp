@@ -11,17 +11,41 @@
 //
 // Signorini's and Coulomb's laws without restitution give r . u <= 0, and so G <= -r . W r / 2 <= 0.
 //
-// Let r_e be the impulses with restitution and r_0 those without. If G(r_e) > 0 for an island, a set of
+// External forces act at the same time. Let u_i be the relative velocities before the step, and a = u_f - u_i what the
+// forces of the step add to them: gravity, forces and torques of the user, attraction. The bodies move with the mean of
+// the velocities before and after (motion/moreau_jean.hpp, theta = 1/2). The kinetic energy and the potential energy of
+// the forces together therefore change by the work of the impulses at the mean velocity,
+//
+//     E(r) = r . (u_i + u) / 2 = G(r) - r . a / 2.
+//
+// The velocity after an impact is -e u_i, without the forces of the step: at a single contact without friction
+// E = -(1 - e) r |u_i| / 2 <= 0. Under gravity G is smaller than E, by a share g h / v of the energy of an impact at the
+// speed v.
+//
+// Let r_e be the impulses with restitution and r_0 those without. If E(r_e) > 0 for an island, a set of
 // bodies that impulses connect, its impulses become
 //
 //     r = r_0 + s (r_e - r_0)
 //
-// with the largest s in [0, 1] for which G(r) <= 0: the root of a parabola. s exists because G(r_0) <= 0. The
+// with the largest s in [0, 1] for which E(r) <= max(0, E(r_0)): the root of a parabola. The
 // impulses lie in the cones of friction, because these are convex, and the bodies do not approach, because u
-// is linear in r. Between prescribed bodies nothing is exchanged: they end islands. A periodic cell that moves by
-// its stress is a body that all contacts touch: they are one island, with the energy of the bodies and of the cell. u
-// and u_f are relative to the prescribed bodies, to the chord of their motion where they turn (chord_velocities.hpp):
-// nothing above asks how these move, and their work is not counted.
+// is linear in r.
+//
+// E(r_0) is positive only in an island without impacts: if a body rises by less than the forces take in the step, its
+// contacts stop it, and it rises meanwhile. From G(r_0) <= -r_0 . W r_0 / 2 follows
+//
+//     E(r_0) <= -r_0 . W r_0 / 2 - r_0 . a / 2 <= sum of h^2 f . M^-1 f / 8,
+//
+// a quarter of the energy that the forces f give bodies at rest in a step. An island rests if no contact that acts
+// approaches faster than the forces add in the step, u_i >= min(0, a): there G(r) <= 0 is required in place of E. It
+// would otherwise be solved twice in every other step, for speeds below g h.
+//
+// Between prescribed bodies nothing is exchanged: they end islands. A periodic cell that moves by
+// its stress is a body that all contacts touch: they are one island, with the energy of the bodies and of the cell, and a
+// has what the stress changes of its rate. u and u_f are relative to the prescribed bodies, to the chord of their motion
+// where they turn (chord_velocities.hpp): nothing above asks how these move, and their work is not counted. u_i has the
+// spin that belongs to the angular momentum before the step in the configuration of the contacts: that the inertia turns
+// is no work of the impulses. With theta > 1/2 the integrator takes energy, which is not counted either.
 //
 // An approximate r_0 can add energy, within every tolerance on means over the contacts: a heavy body that squeezes a light
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
@@ -41,7 +65,7 @@
 // its spring remembers. The energy of the spring changes by (r . c r - s . c s) / 2, which adds to G. With
 // the operator's velocities, u + c (r - s) with the impulses and u_f - c s without, this is
 //
-//     G(r) = r . (u_f + u + c r) / 2 - s . c s / 2.
+//     G(r) = r . (u_f + u + c r) / 2 - s . c s / 2,      E(r) = G(r) - r . a / 2.
 //
 // Without restitution, r . (u + c (r - s)) <= 0, and so G <= -r . W r / 2 - (r - s) . c (r - s) / 2 <= 0.
 #pragma once
@@ -103,7 +127,7 @@ class RestitutionLimit {
   /// @param report           of the problem with restitution; becomes that of both
   void apply(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
              const auto& springs, const auto& solver, auto& workspace, Scalar negligible,
-             std::span<const typename S::Twist> free, SolveReport& report) {
+             std::span<const typename S::Twist> free, const auto& forced, SolveReport& report) {
     bounces_ = bounces();
     if (!bounces_ && !dissipates) return;
     resting_.resize(impulses.size());  // here, so that a later step need not allocate
@@ -112,9 +136,9 @@ class RestitutionLimit {
     if (sets_.size() != bodies.size()) sets_.assign(bodies.size());
     if (!bounces_ && all_lose(bodies, problem, free)) return;
     negligible_ = negligible;
-    measure(problem, impulses, springs, Scalar(0), bouncing_);
+    measure(problem, impulses, springs, forced, Scalar(0), bouncing_);
     if (!gains(bodies, problem)) return;
-    limit(bodies, problem, impulses, springs, solver, workspace, report);
+    limit(bodies, problem, impulses, springs, solver, workspace, forced, report);
   }
   /// The velocity of bodies at rest, at most [m/s].
   static Scalar negligible_velocity(Scalar grain_size, Scalar step) {
@@ -126,15 +150,19 @@ class RestitutionLimit {
   /// A contact under some impulse.
   struct State {
     Row impulse, velocity;  ///< r [N s] and u + c r, without offset [m/s]
-    double gain = 0;        ///< r . (u_f + u + c r) / 2 - s . c s / 2 [J]
+    double gain = 0;        ///< G: r . (u_f + u + c r) / 2 - s . c s / 2 [J]
+    double forced = 0;      ///< r . a / 2; 0 if no contact has a restitution [J]
+    bool hits = false;      ///< u_i < min(0, a): an impact, unless r is zero
     bool acts = false;      ///< r is not zero
   };
   static constexpr double rounding =
       std::max(1e-12, 8 * double(std::numeric_limits<Scalar>::epsilon()));  ///< of sums, relative
   /// Sums over the contacts of an island; r and u with restitution, r_0 and u_0 without [J].
   struct Island {
-    double gain = 0, rest_gain = 0;  // G(r), G(r_0)
-    // Sums of the absolute values of the terms of G: a multiple bounds the rounding of G.
+    bool hits = false;                   // some contact hits: E counts, not G
+    double gain = 0, rest_gain = 0;      // G(r), G(r_0)
+    double forced = 0, rest_forced = 0;  // r . a / 2, r_0 . a / 2
+    // Sums of the absolute values of the terms of E and G: a multiple bounds their rounding.
     double gain_terms = 0, rest_terms = 0;
     double least_gain = 0, least_rest_gain = 0;  // energy that does not count
     double rest_work = 0;                        // r_0 . u_0
@@ -142,7 +170,7 @@ class RestitutionLimit {
     double slope = 0, curvature = 0;
 
     /// More than the rounding of its terms.
-    bool makes_energy() const { return gain > rounding * gain_terms; }
+    bool makes_energy() const { return gain - (hits ? forced : 0) > rounding * gain_terms; }
     /// More than what does not count.
     bool counts() const { return gain > rounding * gain_terms + least_gain; }
     bool rest_counts() const { return rest_gain > rounding * rest_terms + least_rest_gain; }
@@ -153,14 +181,15 @@ class RestitutionLimit {
       const double linear = 2 * rest_gain - rest_work, square = rest_work - rest_gain;
       return linear < 0 ? Scalar(std::min(1.0, -linear / square)) : Scalar(0);
     }
-    /// The largest s in [0, 1] with G(r_0 + s (r - r_0)) <= 0, where G(r_0) > 0 is taken as 0; 1 if r makes no energy.
+    /// The largest s in [0, 1] with E(r_0 + s (r - r_0)) <= max(0, E(r_0)), or G in place of E; 1 if r makes no energy.
     Scalar share() const {
       if (!makes_energy()) return 1;
       if (rest_counts() || curvature <= 0) return 0;
-      const double at_0 = std::min(rest_gain, 0.);
-      const double root = std::sqrt(slope * slope - 2 * curvature * at_0);
+      const double at_0 = std::min(rest_gain - (hits ? rest_forced : 0), 0.);
+      const double tilt = slope - (hits ? forced - rest_forced : 0);
+      const double root = std::sqrt(tilt * tilt - 2 * curvature * at_0);
       // The larger root of the parabola, without the difference of nearly equal numbers.
-      const double s = slope < 0 ? (root - slope) / curvature : -2 * at_0 / (slope + root);
+      const double s = tilt < 0 ? (root - tilt) / curvature : -2 * at_0 / (tilt + root);
       return s < 1 ? Scalar(s) : s >= 1 ? Scalar(1) : Scalar(0);  // 0 of 0/0
     }
   };
@@ -203,13 +232,15 @@ class RestitutionLimit {
   }
   /// @param without share of the restitution that the operator lacks, 0 or 1
   void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
-               Scalar without, std::vector<State>& states) const {
+               const auto& forced, Scalar without, std::vector<State>& states) const {
     states.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       State& state = states[c];
       state.impulse = impulses[c];
       state.velocity.setZero();
       state.gain = -springs.energy_before(c);
+      state.forced = 0;
+      state.hits = false;
       state.acts = !impulses[c].isZero(0);
       // The parabola of the restitution needs velocities of contacts that act in one of the states only.
       if (!std::isfinite(offset_[c]) || !(state.acts || bounces_)) continue;
@@ -220,16 +251,20 @@ class RestitutionLimit {
       if (!state.acts) continue;
       const Row free = problem.delassus.free_velocity(c) - offset;
       state.gain += double(state.impulse.dot(free + state.velocity)) / 2;
+      if (!bounces_) continue;
+      const Row by_forces = forced(c);
+      state.forced = double(state.impulse.dot(by_forces)) / 2;
+      state.hits = free[0] - by_forces[0] < std::min(Scalar(0), by_forces[0]);
     }
   }
   /// Replaces impulses that add energy.
   MOREAU_COLD void limit(const Bodies<S>& bodies, Problem& problem, std::span<Row> impulses,
                          const auto& springs, const auto& solver, auto& workspace,
-                         SolveReport& report) {
+                         const auto& forced, SolveReport& report) {
     if (bounces_) offset_all(problem, -1);
     SolveReport found = report;
     if (bounces_ || report.converged) {
-      found = rest(bodies, problem, impulses, springs, solver, workspace, report.sweeps);
+      found = rest(bodies, problem, impulses, springs, solver, workspace, forced, report.sweeps);
     } else {
       std::swap(resting_, bouncing_);
       add_up(bodies, problem);
@@ -260,13 +295,13 @@ class RestitutionLimit {
   /// @param sweeps so far
   MOREAU_INLINED SolveReport rest(const Bodies<S>& bodies, Problem& problem,
                                   std::span<Row> impulses, const auto& springs, const auto& solver,
-                                  auto& workspace, int sweeps) {
+                                  auto& workspace, const auto& forced, int sweeps) {
     constexpr int most_solves = 32;
     constexpr double small =
         std::max(1e-5, rounding);  // as the velocities of bodies, see ColouredOptions
     for (int k = 1;; ++k) {
       SolveReport found = solver.solve(problem, impulses, workspace);
-      measure(problem, impulses, springs, Scalar(1), resting_);
+      measure(problem, impulses, springs, forced, Scalar(1), resting_);
       add_up(bodies, problem);
       const double change = change_by_shares(bodies, problem);
       const bool gains = change > small;
@@ -276,7 +311,7 @@ class RestitutionLimit {
         for (std::size_t c = 0; c < impulses.size(); ++c)
           impulses[c] *= islands_[island_of(bodies, problem, c)].rest_share();
         set_impulses(problem.delassus, std::span<const Row>(impulses));
-        measure(problem, impulses, springs, Scalar(1), resting_);
+        measure(problem, impulses, springs, forced, Scalar(1), resting_);
         add_up(bodies, problem);
       }
       found.sweeps = sweeps;
@@ -302,8 +337,11 @@ class RestitutionLimit {
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
-    if (std::none_of(bouncing_.begin(), bouncing_.end(),
-                     [](const State& state) { return state.gain > 0; }))
+    const bool hits = std::any_of(bouncing_.begin(), bouncing_.end(),
+                                  [](const State& state) { return state.hits; });
+    if (std::none_of(bouncing_.begin(), bouncing_.end(), [hits](const State& state) {
+          return state.gain > (hits ? std::min(0., state.forced) : 0.);
+        }))
       return false;
     std::fill(resting_.begin(), resting_.end(), State{Row::Zero(), Row::Zero()});
     add_up(bodies, problem);
@@ -342,13 +380,16 @@ class RestitutionLimit {
       if (!bounce.acts && !rest.acts) continue;
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row change = bounce.impulse - rest.impulse;
+      island.hits = island.hits || bounce.hits;
       island.gain += bounce.gain;
-      island.gain_terms +=
-          std::abs(bounce.gain) + std::abs(double(bounce.impulse.dot(bounce.velocity)));
+      island.forced += bounce.forced;
+      island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +
+                           std::abs(double(bounce.impulse.dot(bounce.velocity)));
       island.least_gain += double(negligible_ * bounce.impulse.norm());
       island.least_rest_gain += double(negligible_ * rest.impulse.norm());
       island.rest_work += double(rest.impulse.dot(rest.velocity));
       island.rest_gain += rest.gain;
+      island.rest_forced += rest.forced;
       island.rest_terms += std::abs(rest.gain) + std::abs(double(rest.impulse.dot(rest.velocity)));
       island.slope += double(change.dot(rest.velocity));
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
