@@ -321,7 +321,7 @@ class RestitutionLimit {
     }
   }
   /// By how much rest_share() of the islands changes relative velocities at most, as a share of the largest without impulses.
-  double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
+  MOREAU_COLD double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
     if (!damps()) return 0;
     double change = 0, largest = 0;
     for (std::size_t c = 0; c < resting_.size(); ++c) {
@@ -337,12 +337,13 @@ class RestitutionLimit {
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
-    const bool hits = std::any_of(bouncing_.begin(), bouncing_.end(),
-                                  [](const State& state) { return state.hits; });
-    if (std::none_of(bouncing_.begin(), bouncing_.end(), [hits](const State& state) {
-          return state.gain > (hits ? std::min(0., state.forced) : 0.);
-        }))
-      return false;
+    bool hits = false, any = false, any_beyond = false;
+    for (const State& state : bouncing_) {
+      hits = hits || state.hits;
+      any = any || state.gain > 0;
+      any_beyond = any_beyond || state.gain > state.forced;
+    }
+    if (!any && !(hits && any_beyond)) return false;
     std::fill(resting_.begin(), resting_.end(), State{Row::Zero(), Row::Zero()});
     add_up(bodies, problem);
     return std::any_of(islands_.begin(), islands_.end(), [this](const Island& island) {
