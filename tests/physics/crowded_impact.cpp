@@ -147,6 +147,7 @@ TEST_CASE_TEMPLATE("impacts under gravity gain no energy", ShapeT, Disk<double>,
         CAPTURE(friction);
         CAPTURE(ratio);
         CHECK(tally.worst <= 1e-9);
+        CHECK(tally.beyond == 0);
         CHECK(10 * tally.unsolved <= tally.steps);
         // Without friction elastic impacts keep the energy.
         if (restitution == 1 && friction == 0) CHECK(std::abs(tally.kept - 1) <= 1e-9);

@@ -36,9 +36,12 @@
 //
 //     E(r_0) <= -r_0 . W r_0 / 2 - r_0 . a / 2 <= sum of h^2 f . M^-1 f / 8,
 //
-// a quarter of the energy that the forces f give bodies at rest in a step. An island rests if no contact that acts
-// approaches faster than the forces add in the step, u_i >= min(0, a): there G(r) <= 0 is required in place of E. It
-// would otherwise be solved twice in every other step, for speeds below g h.
+// a quarter of the energy that the forces f give bodies at rest in a step.
+//
+// An island rests if no contact that acts approaches faster than the forces add in the step, u_i >= min(0, a). There
+// G(r) <= 0 is required in place of E. It would otherwise be solved twice in every other step, for speeds below g h.
+// Without friction, and if a <= 0, |x|^2 <= -2 r . (u_i + a) <= -4 x . y with x = M^-1/2 J^T r and y = h M^-1/2 f, and so
+// E(r) <= -x . y / 2 <= 2 h^2 f . M^-1 f.
 //
 // Between prescribed bodies nothing is exchanged: they end islands. A periodic cell that moves by
 // its stress is a body that all contacts touch: they are one island, with the energy of the bodies and of the cell, and a
