@@ -162,10 +162,10 @@ Values error_on_floor(const Law& law, double stiffness, double parts) {
   return error;
 }
 template <class S, class Law>
-Values error_in_flight(const Law& law, double stiffness, double parts) {
+Values error_in_flight(const Law& law, double stiffness, double parts, double spin) {
   Values error;
   for (int trial = 0; trial < 60; ++trial) {
-    TwoGrains<S, Law> world(law, trial, 0);
+    TwoGrains<S, Law> world(law, trial, spin);
     const double first = world.kinetic_energy(),
                  h = duration(stiffness, world.bodies.grain_mass[0]) / parts;
     while (world.time < world.longest && world.contacts.size() == 0) world.step(5e-5);
@@ -175,7 +175,7 @@ Values error_in_flight(const Law& law, double stiffness, double parts) {
   return error;
 }
 template <class S, class Law>
-std::array<Values, 6> springs(const char* name, const Law& law, double stiffness) {
+std::array<Values, 6> springs(const char* name, const Law& law, double stiffness, double spin = 0) {
   std::array<Values, 6> all;
   for (const int where : {0, 1}) {
     std::string mean, worst;
@@ -183,7 +183,7 @@ std::array<Values, 6> springs(const char* name, const Law& law, double stiffness
       const double parts = 50 << 2 * k;
       auto& values = all[std::size_t(3 * where + k)];
       values = where == 0 ? error_on_floor<S>(law, stiffness, parts)
-                          : error_in_flight<S>(law, stiffness, parts);
+                          : error_in_flight<S>(law, stiffness, parts, spin);
       worst += (k == 0 ? "" : " | ") + text("%.1e", values.least) + text(" to %.1e", values.most);
       mean += (k == 0 ? "" : " | ") + text("%.1e", values.mean());
     }
@@ -239,5 +239,22 @@ TEST_CASE_TEMPLATE("springs without loss keep the energy to the order of the ste
     CHECK(soft[floor].most <= 1e-9);
     CHECK(soft[floor].worst() <= 0.1 / (1 << k));
     CHECK(soft[flight].most <= 1e-9);
+  }
+}
+
+// Friction takes energy; the tangential springs give back what they store.
+TEST_CASE_TEMPLATE("springs with friction make no energy", S, Space<2>, Space<3>) {
+  const auto linear = springs<S>("linear, friction 0.4", Linear(1e6, 7e5, 0.4, 1), 1e6, 50);
+  const auto hertz = springs<S>("Hertz, friction 0.4", Hertz(1e9, 3e8, 0.4, 1), 1e6, 50);
+  const auto soft = springs<S>("compliant, friction 0.4", Soft(Rigid(0.4, 1), 1e6, 7e5), 1e6, 50);
+  for (const int k : {0, 1, 2}) {
+    CAPTURE(k);
+    for (const std::size_t where : {std::size_t(0), std::size_t(3)}) {
+      CHECK(linear[where + std::size_t(k)].mean() <= 0);
+      CHECK(hertz[where + std::size_t(k)].mean() <= 0);
+      CHECK(soft[where + std::size_t(k)].most <= 1e-9);
+    }
+    CHECK(linear[std::size_t(k)].most <= 3e-3 / (1 << 3 * k));
+    CHECK(hertz[std::size_t(k)].most <= 3e-3 / (1 << 3 * k));
   }
 }
