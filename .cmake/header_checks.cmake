@@ -28,8 +28,9 @@ foreach(header IN LISTS headers)
   string(APPEND again "${include}")
 endforeach()
 # The number that moreau::instances defines (instances/usual.hpp): nothing here calls its functions.
-string(APPEND together "template <>\nconst char moreau::detail::InstancesCompiledWithTheSameFlags<"
-                       "EIGEN_MAX_STATIC_ALIGN_BYTES>::yes = 1;\n")
+string(APPEND together "template <int N>\nconst char moreau::detail::InstancesCompiledWithTheSameFlags<N>::yes = 1;\n"
+                       "template struct moreau::detail::InstancesCompiledWithTheSameFlags<"
+                       "EIGEN_MAX_STATIC_ALIGN_BYTES>;\n")
 file(CONFIGURE OUTPUT ${generated}/together.cpp CONTENT "${together}" @ONLY)
 file(CONFIGURE OUTPUT ${generated}/again.cpp CONTENT "${again}" @ONLY)
 

@@ -20,3 +20,9 @@ target_link_libraries(moreau_programs PRIVATE moreau_development pictures
                                               $<TARGET_NAME_IF_EXISTS:benchmark::benchmark>)
 target_compile_options(moreau_programs PRIVATE "SHELL:-include moreau/instances/space.hpp"
                                                "SHELL:-include moreau/instances/plane.hpp")
+
+# The testbed by itself: nothing else compiles it, and it is one of the README's commands. Its scenes are read, not
+# instantiated.
+add_library(moreau_testbed_check OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/examples/testbed/make_scene.cpp)
+set_target_properties(moreau_testbed_check PROPERTIES CXX_COMPILER_LAUNCHER ${PROJECT_SOURCE_DIR}/.cmake/check_syntax)
+target_link_libraries(moreau_testbed_check PRIVATE moreau_development)

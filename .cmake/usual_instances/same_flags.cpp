@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/instances/usual.hpp"
 
-namespace moreau {
-template <>
-const char detail::InstancesCompiledWithTheSameFlags<EIGEN_MAX_STATIC_ALIGN_BYTES>::yes = 1;
-}  // namespace moreau
+namespace moreau::detail {
+template <int AlignBytes>
+const char InstancesCompiledWithTheSameFlags<AlignBytes>::yes = 1;
+template struct InstancesCompiledWithTheSameFlags<EIGEN_MAX_STATIC_ALIGN_BYTES>;
+}  // namespace moreau::detail

@@ -8,16 +8,19 @@
 //   shapes   balls, polyhedra, capsules, compounds of polyhedra; in the plane the same
 //   laws     SignoriniCoulomb, RollingResistance, Compliant<SignoriniCoulomb>
 //   policies the default integrator, broad phase and solver
-//   files    snapshots of these simulations
+//   files    snapshots of these simulations, and their files for ParaView
+//   measures EnergyBalance
 //
 // Other shapes under the same laws share the solver with them.
 #pragma once
 
 #include "moreau/instances/detail/instance.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/io/write_paraview.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/measure/energy_balance.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/capsule.hpp"
 #include "moreau/shape/compound.hpp"
@@ -35,6 +38,7 @@ template <int AlignBytes>
 struct InstancesCompiledWithTheSameFlags {
   static const char yes;
 };
+extern template struct InstancesCompiledWithTheSameFlags<EIGEN_MAX_STATIC_ALIGN_BYTES>;
 [[gnu::used]] inline const char* const instances_flags =
     &InstancesCompiledWithTheSameFlags<EIGEN_MAX_STATIC_ALIGN_BYTES>::yes;
 }  // namespace detail
@@ -42,6 +46,8 @@ MOREAU_BALL_AND_POLYTOPE_INSTANCES(extern template, Disk<double>, Polygon<double
 MOREAU_BALL_AND_POLYTOPE_INSTANCES(extern template, Ball<double>, Polyhedron<double>)
 MOREAU_CAPSULE_AND_COMPOUND_INSTANCES(extern template, Stadium<double>, Polygon<double>)
 MOREAU_CAPSULE_AND_COMPOUND_INSTANCES(extern template, Capsule<double>, Polyhedron<double>)
+MOREAU_MEASURE_INSTANCES(extern template, Space<2>)
+MOREAU_MEASURE_INSTANCES(extern template, Space<3>)
 MOREAU_PLANE_INSTANCES(extern template, SignoriniCoulomb<double>)
 MOREAU_PLANE_INSTANCES(extern template, RollingResistance<double>)
 MOREAU_PLANE_INSTANCES(extern template, Compliant<SignoriniCoulomb<double>>)

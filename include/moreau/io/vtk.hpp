@@ -50,8 +50,7 @@ class VtkWriter {
   using Vector = typename S::Vector;
 
   /// @throws std::invalid_argument for a fineness outside 0 to 6
-  explicit VtkWriter(const VtkOptions& options = {})
-      : options_(options), mesher_(options.fineness) {}
+  explicit VtkWriter(const VtkOptions& options = {});
 
   /// Writes the grains with the arrays `id` (the index k), `size` (circumdiameter [m]), `velocity`
   /// of the centre of mass [m/s], `speed` [m/s] and `spin` (magnitude of the angular velocity
@@ -109,72 +108,17 @@ class VtkWriter {
   /// @throws std::invalid_argument if an end of a segment is not finite
   /// @throws std::system_error naming the path if the file cannot be written
   void write_contacts(const std::filesystem::path& path,
-                      std::span<const ContactSegment<S>> contacts) {
-    clear();
-    for (const ContactSegment<S>& contact : contacts) {
-      for (const Vector& end : {contact.from, contact.to})
-        require(is_drawable(end), "VtkWriter::write_contacts", "end of a contact", end,
-                "must be finite as float");
-      cell_.assign({data_.add_point(contact.from), data_.add_point(contact.to)});
-      data_.add_cell(VtkPolyData::Cells::lines, cell_);
-      numbers_.push_back(static_cast<std::int32_t>(contact.contact_class));
-      lengths_.push_back(static_cast<float>(contact.gap));
-      append_vector(contact.point, vectors_);
-      first_.push_back(static_cast<float>(contact.normal_force));
-      second_.push_back(static_cast<float>(contact.friction_force));
-    }
-    constexpr auto cells = VtkPolyData::On::cells;
-    add<float>(cells, "normal_force", 1, first_);
-    add<float>(cells, "friction_force", 1, second_);
-    add<float>(cells, "gap", 1, lengths_);
-    add<std::int32_t>(cells, "class", 1, numbers_);
-    add<float>(cells, "point", 3, vectors_);
-    data_.write(path);
-  }
+                      std::span<const ContactSegment<S>> contacts);
 
   /// Writes the cells of a grid that contain grains as points at the centres of the cells, with the
   /// arrays `value` (mean in the unit of the field) and `grains` (number of grains in the mean).
   /// @throws std::system_error naming the path if the file cannot be written
-  void write_field(const std::filesystem::path& path, const GridField<S>& field) {
-    clear();
-    for (std::size_t k = 0; k < field.size(); ++k) {
-      const GridSample<S> sample = field.sample(k);
-      if (sample.grains == 0) continue;
-      append_point(sample.position);
-      append_vector(sample.value, vectors_);
-      numbers_.push_back(static_cast<std::int32_t>(sample.grains));
-    }
-    add<float>(VtkPolyData::On::points, "value", 3, vectors_);
-    add<std::int32_t>(VtkPolyData::On::points, "grains", 1, numbers_);
-    data_.write(path);
-  }
+  void write_field(const std::filesystem::path& path, const GridField<S>& field);
 
   /// Writes the edges of a box, world axes [m].
   /// @throws std::invalid_argument if the box is empty or not finite
   /// @throws std::system_error naming the path if the file cannot be written
-  void write_box(const std::filesystem::path& path, const Aabb<S>& box) {
-    require(is_drawable(box.lower), "VtkWriter::write_box", "box.lower", box.lower,
-            "must be finite as float");
-    require(is_drawable(box.upper), "VtkWriter::write_box", "box.upper", box.upper,
-            "must be finite as float");
-    require((box.lower.array() <= box.upper.array()).all(), "VtkWriter::write_box", "box.upper",
-            box.upper, "must be >= box.lower");
-    clear();
-    for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
-      Vector x = box.lower;
-      for (int k = 0; k < S::dim; ++k)
-        if ((corner >> k & 1u) != 0) x[k] = box.upper[k];
-      data_.add_point(x);
-    }
-    for (unsigned corner = 0; corner < 1u << S::dim; ++corner)
-      for (int k = 0; k < S::dim; ++k) {
-        if ((corner >> k & 1u) != 0) continue;
-        cell_.assign(
-            {static_cast<std::int32_t>(corner), static_cast<std::int32_t>(corner | 1u << k)});
-        data_.add_cell(VtkPolyData::Cells::lines, cell_);
-      }
-    data_.write(path);
-  }
+  void write_box(const std::filesystem::path& path, const Aabb<S>& box);
 
  private:
   void clear() {
@@ -232,5 +176,75 @@ class VtkWriter {
   std::vector<std::int32_t> cell_, numbers_;
   std::vector<float> lengths_, vectors_, first_, second_;  // values of the arrays of one file
 };
+
+// Outside of the class, so that moreau::instances has them compiled.
+
+template <class S>
+VtkWriter<S>::VtkWriter(const VtkOptions& options) : options_(options), mesher_(options.fineness) {}
+
+template <class S>
+void VtkWriter<S>::write_contacts(const std::filesystem::path& path,
+                                  std::span<const ContactSegment<S>> contacts) {
+  clear();
+  for (const ContactSegment<S>& contact : contacts) {
+    for (const Vector& end : {contact.from, contact.to})
+      require(is_drawable(end), "VtkWriter::write_contacts", "end of a contact", end,
+              "must be finite as float");
+    cell_.assign({data_.add_point(contact.from), data_.add_point(contact.to)});
+    data_.add_cell(VtkPolyData::Cells::lines, cell_);
+    numbers_.push_back(static_cast<std::int32_t>(contact.contact_class));
+    lengths_.push_back(static_cast<float>(contact.gap));
+    append_vector(contact.point, vectors_);
+    first_.push_back(static_cast<float>(contact.normal_force));
+    second_.push_back(static_cast<float>(contact.friction_force));
+  }
+  constexpr auto cells = VtkPolyData::On::cells;
+  add<float>(cells, "normal_force", 1, first_);
+  add<float>(cells, "friction_force", 1, second_);
+  add<float>(cells, "gap", 1, lengths_);
+  add<std::int32_t>(cells, "class", 1, numbers_);
+  add<float>(cells, "point", 3, vectors_);
+  data_.write(path);
+}
+
+template <class S>
+void VtkWriter<S>::write_field(const std::filesystem::path& path, const GridField<S>& field) {
+  clear();
+  for (std::size_t k = 0; k < field.size(); ++k) {
+    const GridSample<S> sample = field.sample(k);
+    if (sample.grains == 0) continue;
+    append_point(sample.position);
+    append_vector(sample.value, vectors_);
+    numbers_.push_back(static_cast<std::int32_t>(sample.grains));
+  }
+  add<float>(VtkPolyData::On::points, "value", 3, vectors_);
+  add<std::int32_t>(VtkPolyData::On::points, "grains", 1, numbers_);
+  data_.write(path);
+}
+
+template <class S>
+void VtkWriter<S>::write_box(const std::filesystem::path& path, const Aabb<S>& box) {
+  require(is_drawable(box.lower), "VtkWriter::write_box", "box.lower", box.lower,
+          "must be finite as float");
+  require(is_drawable(box.upper), "VtkWriter::write_box", "box.upper", box.upper,
+          "must be finite as float");
+  require((box.lower.array() <= box.upper.array()).all(), "VtkWriter::write_box", "box.upper",
+          box.upper, "must be >= box.lower");
+  clear();
+  for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
+    Vector x = box.lower;
+    for (int k = 0; k < S::dim; ++k)
+      if ((corner >> k & 1u) != 0) x[k] = box.upper[k];
+    data_.add_point(x);
+  }
+  for (unsigned corner = 0; corner < 1u << S::dim; ++corner)
+    for (int k = 0; k < S::dim; ++k) {
+      if ((corner >> k & 1u) != 0) continue;
+      cell_.assign(
+          {static_cast<std::int32_t>(corner), static_cast<std::int32_t>(corner | 1u << k)});
+      data_.add_cell(VtkPolyData::Cells::lines, cell_);
+    }
+  data_.write(path);
+}
 
 }  // namespace moreau

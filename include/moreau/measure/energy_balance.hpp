@@ -106,30 +106,10 @@ class EnergyBalance {
   ///                               since the start or the last rebase()
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
-    const Bodies<S>& bodies = simulation.bodies();
-    require_positive(step, "EnergyBalance::add", "step");
-    require(bodies.id == ids_, "EnergyBalance::add", "number of bodies", bodies.size(),
-            "must be the same bodies as at the start of the balance or at the last rebase()");
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Vector way = bodies.pose[i].position - positions_[i];
-      const Vector force = linear<S>(bodies.force[i]);
-      if (!bodies.is_prescribed(i))
-        terms_.gravity += double(bodies.grain_mass[i] * simulation.gravity().dot(way));
-      terms_.forces += double(with_mass(bodies, i, force).dot(way));
-      if (bodies.rotates(i)) {
-        const typename S::Angular spins = spins_[i] + angular<S>(bodies.velocity[i]);
-        terms_.forces += double(angular<S>(bodies.force[i]).dot(spins) * step / 2);
-      }
-    }
-    terms_.drives += work_of_drives(bodies, simulation.contacts());
-    terms_.friction += report.friction;
-    terms_.rolling += report.rolling;
-    terms_.fracture += report.fracture;
-    terms_.elastic += report.elastic_work;
-    terms_.cell += report.cell_work;
-    terms_.impacts += report.dissipation - report.friction - report.rolling - report.fracture;
-    terms_.correction += report.correction.work;
-    remember(bodies);
+    add_work_of_forces(simulation.bodies(), simulation.gravity(), step);
+    terms_.drives += work_of_drives(simulation.bodies(), simulation.contacts());
+    add_report(report);
+    remember(simulation.bodies());
   }
 
   /// Continues with the present bodies, positions and velocities, which the program has changed since
@@ -155,36 +135,12 @@ class EnergyBalance {
   auto serialized_members() { return std::tie(terms_, positions_, spins_, ids_, kinetic_, start_); }
 
   /// The component of a vector along those axes of the body along which the body has a mass.
-  static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x) {
-    const typename S::Matrix axes = bodies.axes(i);
-    Vector along = axes.transpose() * x;
-    for (int k = 0; k < S::dim; ++k)
-      if (!(bodies.inverse_mass[i][k] > 0)) along[k] = 0;
-    return axes * along;
-  }
-  static double kinetic_energy(const Bodies<S>& bodies, std::size_t i) {
-    const Vector v = bodies.axes(i).transpose() * linear<S>(bodies.velocity[i]);
-    const typename S::Angular w = angular<S>(bodies.velocity[i]);
-    double energy = 0;
-    if (bodies.rotates(i))
-      energy = double(w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) / 2;
-    for (int k = 0; k < S::dim; ++k)
-      if (bodies.inverse_mass[i][k] > 0)
-        energy += double(v[k] * v[k] / bodies.inverse_mass[i][k]) / 2;
-    return energy;
-  }
-
+  static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x);
+  static double kinetic_energy(const Bodies<S>& bodies, std::size_t i);
   /// Work of the impulse and couple that a body receives, along the prescribed part of its motion
   /// [J]. The drive that prescribes this motion supplies the opposite work.
   static double work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
-                        const Vector& impulse, const typename S::Angular& couple) {
-    if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;
-    const Vector v = linear<S>(bodies.velocity[i]);
-    double work = double(impulse.dot(v - with_mass(bodies, i, v)));
-    if (!bodies.rotates(i))
-      work += double(angular<S>(bodies.velocity[i]).dot(S::moment(lever, impulse) + couple));
-    return work;
-  }
+                        const Vector& impulse, const typename S::Angular& couple);
   static double work_of_drives(const Bodies<S>& bodies, const auto& contacts) {
     double work = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -199,17 +155,9 @@ class EnergyBalance {
     return work;
   }
 
-  void remember(const Bodies<S>& bodies) {
-    positions_.resize(bodies.size());
-    spins_.resize(bodies.size());
-    ids_ = bodies.id;
-    kinetic_ = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      positions_[i] = bodies.pose[i].position;
-      spins_[i] = angular<S>(bodies.velocity[i]);
-      kinetic_ += kinetic_energy(bodies, i);
-    }
-  }
+  void add_work_of_forces(const Bodies<S>& bodies, const Vector& gravity, Scalar step);
+  void add_report(const StepReport& report);
+  void remember(const Bodies<S>& bodies);
 
   EnergyTerms terms_;
   std::vector<Vector> positions_;
@@ -217,5 +165,82 @@ class EnergyBalance {
   std::vector<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
 };
+
+// Outside of the class, so that moreau::instances has them compiled.
+
+template <class S>
+auto EnergyBalance<S>::with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x)
+    -> Vector {
+  const typename S::Matrix axes = bodies.axes(i);
+  Vector along = axes.transpose() * x;
+  for (int k = 0; k < S::dim; ++k)
+    if (!(bodies.inverse_mass[i][k] > 0)) along[k] = 0;
+  return axes * along;
+}
+
+template <class S>
+double EnergyBalance<S>::kinetic_energy(const Bodies<S>& bodies, std::size_t i) {
+  const Vector v = bodies.axes(i).transpose() * linear<S>(bodies.velocity[i]);
+  const typename S::Angular w = angular<S>(bodies.velocity[i]);
+  double energy = 0;
+  if (bodies.rotates(i)) energy = double(w.dot(bodies.inertia(i, bodies.pose[i].rotation) * w)) / 2;
+  for (int k = 0; k < S::dim; ++k)
+    if (bodies.inverse_mass[i][k] > 0)
+      energy += double(v[k] * v[k] / bodies.inverse_mass[i][k]) / 2;
+  return energy;
+}
+
+template <class S>
+double EnergyBalance<S>::work_on(const Bodies<S>& bodies, std::uint32_t i, const Vector& lever,
+                                 const Vector& impulse, const typename S::Angular& couple) {
+  if (bodies.rotates(i) && (bodies.inverse_mass[i].array() > 0).all()) return 0;
+  const Vector v = linear<S>(bodies.velocity[i]);
+  double work = double(impulse.dot(v - with_mass(bodies, i, v)));
+  if (!bodies.rotates(i))
+    work += double(angular<S>(bodies.velocity[i]).dot(S::moment(lever, impulse) + couple));
+  return work;
+}
+
+template <class S>
+void EnergyBalance<S>::add_work_of_forces(const Bodies<S>& bodies, const Vector& gravity,
+                                          Scalar step) {
+  require_positive(step, "EnergyBalance::add", "step");
+  require(bodies.id == ids_, "EnergyBalance::add", "number of bodies", bodies.size(),
+          "must be the same bodies as at the start of the balance or at the last rebase()");
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Vector way = bodies.pose[i].position - positions_[i];
+    const Vector force = linear<S>(bodies.force[i]);
+    if (!bodies.is_prescribed(i)) terms_.gravity += double(bodies.grain_mass[i] * gravity.dot(way));
+    terms_.forces += double(with_mass(bodies, i, force).dot(way));
+    if (bodies.rotates(i)) {
+      const typename S::Angular spins = spins_[i] + angular<S>(bodies.velocity[i]);
+      terms_.forces += double(angular<S>(bodies.force[i]).dot(spins) * step / 2);
+    }
+  }
+}
+
+template <class S>
+void EnergyBalance<S>::add_report(const StepReport& report) {
+  terms_.friction += report.friction;
+  terms_.rolling += report.rolling;
+  terms_.fracture += report.fracture;
+  terms_.elastic += report.elastic_work;
+  terms_.cell += report.cell_work;
+  terms_.impacts += report.dissipation - report.friction - report.rolling - report.fracture;
+  terms_.correction += report.correction.work;
+}
+
+template <class S>
+void EnergyBalance<S>::remember(const Bodies<S>& bodies) {
+  positions_.resize(bodies.size());
+  spins_.resize(bodies.size());
+  ids_ = bodies.id;
+  kinetic_ = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    positions_[i] = bodies.pose[i].position;
+    spins_[i] = angular<S>(bodies.velocity[i]);
+    kinetic_ += kinetic_energy(bodies, i);
+  }
+}
 
 }  // namespace moreau

@@ -66,6 +66,16 @@
   KEYWORD Simulation<ShapeT, LawT> detail::copy_of_simulation(const Simulation<ShapeT, LawT>&); \
   KEYWORD void detail::replace_simulation(Simulation<ShapeT, LawT>&, Simulation<ShapeT, LawT>&);
 
+/// Files for ParaView of a simulation.
+#define MOREAU_PARAVIEW_INSTANCE(KEYWORD, ShapeT, LawT)                                      \
+  KEYWORD void write_paraview(const std::filesystem::path&, const Simulation<ShapeT, LawT>&, \
+                              double, const VtkOptions&);
+
+/// Files for ParaView and the energy balance: what depends on the space only.
+#define MOREAU_MEASURE_INSTANCES(KEYWORD, SpaceT) \
+  KEYWORD class VtkWriter<SpaceT>;                \
+  KEYWORD class EnergyBalance<SpaceT>;
+
 /// The parts of the library of usual simulations (usual.hpp); each is a source of its own.
 #define MOREAU_BALL_AND_POLYTOPE_INSTANCES(KEYWORD, BallT, PolytopeT) \
   KEYWORD class PolytopeT;                                            \
@@ -76,7 +86,8 @@
   MOREAU_SHAPE_INSTANCES(KEYWORD, Compound<PolytopeT>)
 #define MOREAU_SIMULATION_INSTANCES(KEYWORD, ShapeT, LawT) \
   MOREAU_SIMULATION_INSTANCE(KEYWORD, ShapeT, LawT)        \
-  MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)
+  MOREAU_SNAPSHOT_INSTANCES(KEYWORD, ShapeT, LawT)         \
+  MOREAU_PARAVIEW_INSTANCE(KEYWORD, ShapeT, LawT)
 #define MOREAU_SPACE_AND_LAW_INSTANCES(KEYWORD, SpaceT, BallT, PolytopeT, CapsuleT, LawT) \
   MOREAU_LAW_INSTANCES(KEYWORD, SpaceT, LawT)                                             \
   MOREAU_SIMULATION_INSTANCES(KEYWORD, BallT, LawT)                                       \
