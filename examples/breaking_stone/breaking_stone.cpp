@@ -63,9 +63,9 @@ void crush(const char* name, const std::string& folder) {
   }
   std::printf("# largest force %.1f N, ", largest);
   if (simulation.breakages().empty())
-    std::printf("no bond broke\n");
+    std::printf("no bond broke\n\n\n");
   else
-    std::printf("first bond broke at %.3f mm\n", 1e3 * speed * simulation.breakages()[0].time);
+    std::printf("first bond broke at %.3f mm\n\n\n", 1e3 * speed * simulation.breakages()[0].time);
 }
 
 }  // namespace

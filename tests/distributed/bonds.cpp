@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bonds and bridges over several processes: the motion is that of one process, bonds and breakages move with
+// Bonds, bridges and cohesion over several processes: the motion is that of one process, bonds and breakages move with
 // their grains, also through a restart over the processes.
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 
 #include "moreau/law/bonded.hpp"
 #include "moreau/law/bridges.hpp"
+#include "moreau/law/cohesive.hpp"
 
 #include "distributed/worlds.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 
 using Glue = Bonded<>;
 using SoftGlue = Compliant<Bonded<>>;
+using SoftSticky = Compliant<Cohesive<Rigid>>;
 using SoftWet = Compliant<Bridged<CapillaryBridge<>, Rigid>>;
 
 /// A block of grains that touch, turned against the floor that it falls on; grains bonded in rows, with springs all
@@ -148,4 +150,26 @@ TEST_CASE("Bridges with springs form, hold and break over processes as in one") 
   for (const auto& point : result->contacts().points)
     apart += point.gap > Tolerances().margin * size;
   CHECK(apart > 0);
+}
+
+TEST_CASE("Cohesion with springs holds, breaks and forms over processes as in one") {
+  const auto scene = block<Ball<>>(SoftSticky(Cohesive<Rigid>(Rigid(0.4), 5), 1e5), 1, 0.7 * size);
+  const auto result = check_motion(scene, 120);
+  if (!result) return;
+  std::size_t held = 0, broken = 0, formed = 0;  // pairs of grains
+  const auto grains = scene.grains();
+  const auto distance = [&](const auto& world, std::size_t i, std::size_t k) {
+    return (world.pose(grains[i]).position - world.pose(grains[k]).position).norm() / size;
+  };
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const double before = distance(scene, i, k), after = distance(*result, i, k);
+      held += before < 1.001 && after < 1.001;
+      broken += before < 1.001 && after > 1.05;  // beyond the margin
+      formed += before > 1.05 && after < 1.001;
+    }
+  CHECK(held > 30);
+  CHECK(broken > 3);
+  CHECK(formed > 3);
+  MESSAGE(held, " pairs hold, ", broken, " broke, ", formed, " formed");
 }

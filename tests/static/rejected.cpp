@@ -147,6 +147,200 @@ const moreau::Materials<Law> materials(1, Law(Push(0.4), 1e6));
 const moreau::Simulation<moreau::Ball<>, Law> world(1, materials);
 #endif  // springs_with_tangential_restitution
 
+#ifdef cohesive_bridges
+// Bridges, and an attraction at every contact beside them.
+// expect: Cohesive<Law>: Law has an attraction of its own
+// and no other error
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/cohesive.hpp"
+
+using Wet = moreau::Bridged<moreau::CapillaryBridge<>>;
+using Law = moreau::Cohesive<EITHER(Wet, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesive_bridges
+
+#ifdef bridges_twice
+// Bridges of two kinds.
+// expect: Bridged<Bridge, Law>: Law has an attraction of its own
+// and no other error
+#include "moreau/law/bridges.hpp"
+
+using Wet = moreau::Bridged<moreau::LinearCohesion<>>;
+using Law = moreau::Bridged<moreau::CapillaryBridge<>, EITHER(Wet, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.reach();
+}
+#endif  // bridges_twice
+
+#ifdef bonds_around_a_law
+// Bonded is no wrapper: it has friction and rolling resistance of its own.
+// expect: (constraint failure for.*Bonded|constraints not satisfied for class template 'Bonded')
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/frictionless.hpp"
+
+using Law = moreau::Bonded<EITHER(moreau::Frictionless<>, double)>;
+void use(const Law& law) {
+  (void)law.strength();
+}
+#endif  // bonds_around_a_law
+
+#ifdef cohesive_forces
+// A constant attraction beside a law for forces.
+// expect: Cohesive<Law>: Law gives no impulses \(velocity_offset\)
+// and no other error
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+using Law = moreau::Cohesive<EITHER(moreau::LinearSpringDashpot<>, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesive_forces
+
+#ifdef bridged_forces
+// Bridges beside a law for forces.
+// expect: Bridged<Bridge, Law>: Law gives no impulses \(velocity_offset\)
+// and no other error
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+using Law = moreau::Bridged<moreau::CapillaryBridge<>,
+                            EITHER(moreau::HertzMindlin<>, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.reach();
+}
+#endif  // bridged_forces
+
+#ifdef compliant_forces
+// Springs in series with a law for forces, which has springs of its own.
+// expect: Compliant<Law>: Law gives no impulses \(velocity_offset\)
+// and no other error
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+
+using Law = moreau::Compliant<EITHER(moreau::LinearSpringDashpot<>, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.stiffness();
+}
+#endif  // compliant_forces
+
+#ifdef springs_twice
+// Springs in series with springs.
+// expect: Compliant<Law>: Law has springs of its own
+// and no other error
+#include "moreau/law/compliant.hpp"
+
+using Law = moreau::Compliant<EITHER(moreau::Compliant<>, moreau::SignoriniCoulomb<>)>;
+void use(const Law& law) {
+  (void)law.stiffness();
+}
+#endif  // springs_twice
+
+#ifdef cohesion_around_springs
+// Springs inside of an attraction.
+// expect: Cohesive<Law>: Law has springs; they go outside: Compliant<Cohesive<..>>
+// and no other error
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
+
+using Law = EITHER(moreau::Cohesive<moreau::Compliant<>>, moreau::Compliant<moreau::Cohesive<>>);
+void use(const Law& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesion_around_springs
+
+#ifdef bridges_around_springs
+// Springs inside of bridges.
+// expect: Bridged<Bridge, Law>: Law has springs; they go outside: Compliant<Bridged<..>>
+// and no other error
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/compliant.hpp"
+
+using Water = moreau::CapillaryBridge<>;
+using Wrong = moreau::Bridged<Water, moreau::Compliant<>>;
+using Law = EITHER(Wrong, moreau::Compliant<moreau::Bridged<Water>>);
+void use(const Law& law) {
+  (void)law.reach();
+}
+#endif  // bridges_around_springs
+
+#ifdef bridges_of_another_scalar
+// Bridges in single precision of a law in double precision. Without the message the pairs would have no bridges.
+// expect: Bridged<Bridge, Law>: Law gives no impulses \(velocity_offset\) in the scalar of Bridge
+// and no other error
+#include "moreau/law/bridges.hpp"
+
+using Water = moreau::CapillaryBridge<EITHER(float, double)>;
+using Law = moreau::Bridged<Water, moreau::SignoriniCoulomb<double>>;
+void use(const Law& law) {
+  (void)law.reach();
+}
+#endif  // bridges_of_another_scalar
+
+#ifdef cohesion_of_another_scalar
+// An attraction in single precision of a law in double precision.
+// expect: Cohesive<Law>: Law gives no impulses \(velocity_offset\) in the scalar of Cohesive
+// and no other error
+#include "moreau/law/cohesive.hpp"
+
+using Law = moreau::Cohesive<moreau::SignoriniCoulomb<double>, EITHER(float, double)>;
+void use(const Law& law) {
+  (void)law.adhesion();
+}
+#endif  // cohesion_of_another_scalar
+
+#ifdef springs_of_another_scalar
+// Springs in single precision of bonds in double precision.
+// expect: Compliant<Law>: Law gives no impulses \(velocity_offset\) in the scalar of Compliant
+// and no other error
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/compliant.hpp"
+
+using Law = moreau::Compliant<moreau::Bonded<double>, EITHER(float, double)>;
+void use(const Law& law) {
+  (void)law.stiffness();
+}
+#endif  // springs_of_another_scalar
+
+#ifdef springs_cohesion_and_tangential_restitution
+// Springs in series with a law that has an attraction and a tangential restitution.
+// expect: Compliant<TangentialRestitution> would have two tangential restitutions
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/tangential_restitution.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Push = EITHER(moreau::TangentialRestitution<>, moreau::SignoriniCoulomb<>);
+using Law = moreau::Compliant<moreau::Cohesive<Push>>;
+using World = moreau::Simulation<moreau::Ball<>, Law>;
+World start(const Law& law) {
+  return World(1, moreau::Materials<Law>(1, law));
+}
+#endif  // springs_cohesion_and_tangential_restitution
+
+#ifdef springs_bridges_and_tangential_restitution
+// Springs in series with a law that has bridges and a tangential restitution.
+// expect: Compliant<TangentialRestitution> would have two tangential restitutions
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/compliant.hpp"
+#include "moreau/law/tangential_restitution.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Push = EITHER(moreau::TangentialRestitution<>, moreau::SignoriniCoulomb<>);
+using Law = moreau::Compliant<moreau::Bridged<moreau::CapillaryBridge<>, Push>>;
+using World = moreau::Simulation<moreau::Ball<>, Law>;
+World start(const Law& law) {
+  return World(1, moreau::Materials<Law>(1, law));
+}
+#endif  // springs_bridges_and_tangential_restitution
+
 #ifdef bonds_of_a_law_without
 // A bond under a law that has none.
 // expect: (bond|constraints not satisfied)

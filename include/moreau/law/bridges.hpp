@@ -116,6 +116,11 @@ class Bridged : public Law {
   static_assert(
       !detail::Attracts<Law>,
       "Bridged<Bridge, Law>: Law has an attraction of its own, and a contact has one attraction");
+  static_assert(!detail::HasSprings<Law>,
+                "Bridged<Bridge, Law>: Law has springs; they go outside: Compliant<Bridged<..>>");
+  static_assert(
+      detail::GivesImpulses<Law, typename Bridge::Scalar>,
+      "Bridged<Bridge, Law>: Law gives no impulses (velocity_offset) in the scalar of Bridge");
   static constexpr std::size_t variants_of_law() {
     if constexpr (requires(const Law& law) {
                     { law.variant(0) } -> std::same_as<Law>;

@@ -30,12 +30,15 @@ namespace moreau {
 /// @tparam Law    set-valued law of the push; static friction, rolling and lanes stay as they are
 /// @tparam Scalar scalar of the law
 template <class Law = SignoriniCoulomb<>,
-          std::floating_point Scalar =
-              decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
+          std::floating_point Scalar = typename detail::ImpulseScalar<Law>::type>
 class Cohesive : public Law {
   static_assert(
       !detail::Attracts<Law>,
       "Cohesive<Law>: Law has an attraction of its own, and a contact has one attraction");
+  static_assert(!detail::HasSprings<Law>,
+                "Cohesive<Law>: Law has springs; they go outside: Compliant<Cohesive<..>>");
+  static_assert(detail::GivesImpulses<Law, Scalar>,
+                "Cohesive<Law>: Law gives no impulses (velocity_offset) in the scalar of Cohesive");
 
  public:
   /// @param law      the law without adhesion

@@ -53,6 +53,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
@@ -68,9 +69,13 @@ namespace moreau {
 ///                Bridged, Bonded
 /// @tparam Scalar its scalar
 template <class Law = SignoriniCoulomb<>,
-          std::floating_point Scalar =
-              decltype(std::declval<const Law&>().velocity_offset(0., 0., 0.))>
+          std::floating_point Scalar = typename detail::ImpulseScalar<Law>::type>
 class Compliant : public Law {
+  static_assert(!detail::HasSprings<Law>, "Compliant<Law>: Law has springs of its own");
+  static_assert(
+      detail::GivesImpulses<Law, Scalar>,
+      "Compliant<Law>: Law gives no impulses (velocity_offset) in the scalar of Compliant");
+
  public:
   /// @param law                  the law in series with the springs
   /// @param stiffness            k_n > 0, normal [N/m]; in the plane per unit of what the densities

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "moreau/law/lane_block.hpp"
 #include "moreau/law/local_block.hpp"
@@ -109,6 +110,28 @@ template <class L>
 concept ActsWhereGapsClose = std::same_as<typename L::ActsWhereGapsClose, L>;
 
 namespace detail {
+/// A law for impulses, in this scalar.
+template <class L, class T>
+concept GivesImpulses = requires(const L law, T x) {
+  { law.velocity_offset(x, x, x) } -> std::same_as<T>;
+};
+/// The scalar of a law for impulses; double of another law.
+template <class L>
+struct ImpulseScalar {
+  using type = double;
+};
+template <class L>
+requires requires(const L law) {
+  law.velocity_offset(0., 0., 0.);
+}
+struct ImpulseScalar<L> {
+  using type = decltype(std::declval<const L&>().velocity_offset(0., 0., 0.));
+};
+/// A law with springs in series, in any scalar.
+template <class L>
+concept HasSprings = requires(const L law) {
+  law.normal_compliance();
+};
 /// A law with bridges or bonds, or with an attraction at every contact.
 template <class L>
 concept Attracts = requires {

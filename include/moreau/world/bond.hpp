@@ -54,6 +54,13 @@ struct Breakage {
 
 namespace detail {
 
+/// The feature of the contact of a bond, with indices that no feature of a shape has.
+inline constexpr FeatureKey bond_feature(FeatureKey::Kind::vertex_vertex, 0xfffffff, 0xfffffff);
+/// Whether the contact of this key is a bond.
+inline bool is_bond(const ContactKey& key) {
+  return key.feature == bond_feature;
+}
+
 /// Where a bond is, world axes.
 template <class S>
 struct BondPlace {

@@ -360,9 +360,8 @@ class BondList {
     merged_.variants.push_back(from.variants[c]);
   }
   void add_contact(std::uint32_t a, std::uint32_t b, const BondPlace<S>& at) {
-    constexpr std::size_t last = 0xfffffff;  // an index that no feature has
     merged_.points.push_back({a, b, 0, Scalar(0), at.frame, at.middle_a, at.middle_b});
-    merged_.keys.push_back({a, b, FeatureKey(FeatureKey::Kind::vertex_vertex, last, last)});
+    merged_.keys.push_back({a, b, bond_feature});
     merged_.classes.push_back(ContactClass::vertex_vertex);
     merged_.impulses.push_back(Row::Zero());
     merged_.variants.push_back(1);
