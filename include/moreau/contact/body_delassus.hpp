@@ -87,6 +87,10 @@ class BodyDelassus {
                       [&](std::size_t c) { assemble_couple(c, contacts[c], roots, free); });
   }
 
+  /// The numbers of point(c), in their order in memory; without couples.
+  using PointNumbers = detail::PointNumbers<S>;
+  /// The data of a contact, for passes that read all of them.
+  const detail::OperatorPoint<S, Couples>& point(std::size_t c) const { return points_[c]; }
   std::size_t size() const { return points_.size(); }        ///< contacts
   std::size_t body_count() const { return masses_.size(); }  ///< bodies, walls included
 
@@ -143,7 +147,8 @@ class BodyDelassus {
   /// The same without D_cc r_c.
   Vector velocity_of_bodies(std::size_t c) const {
     const Point& point = points_[c];
-    const typename S::Vector change = transposed_product(point.frame, change_between(point));
+    const typename S::Vector change =
+        detail::inlined_transposed_product(point.frame, change_between(point));
     Vector u;
     for (int k = 0; k < S::dim; ++k) u[k] = point.free[k] + change[k];
     if constexpr (Couples) {
@@ -290,7 +295,7 @@ class BodyDelassus {
                                               const typename S::Twist& b) {
     typename S::Vector difference = detail::velocity_at<S>(b, contact.lever_b);
     difference -= detail::velocity_at<S>(a, contact.lever_a);
-    return transposed_product(contact.frame, difference);
+    return detail::inlined_transposed_product(contact.frame, difference);
   }
 
  private:
@@ -345,36 +350,47 @@ class BodyDelassus {
   MOREAU_COMPILED_ONCE void assemble_some(std::size_t begin, std::size_t end,
                                           std::span<const Contact<S>> contacts,
                                           std::span<const typename S::Twist> free) {
+    constexpr std::size_t lanes = Lanes::lanes;
     Lanes some;
-    for (std::size_t lane = 0; lane < Lanes::lanes; ++lane) {
+    std::array<const Contact<S>*, lanes> of_lane;
+    std::array<const InverseMass<S>*, lanes> mass_a, mass_b;
+    std::array<const typename S::Twist*, lanes> free_a, free_b;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::size_t c = std::min(begin + lane, end - 1);
       const Contact<S>& contact = contacts[c];
-      some.set_frame(lane, contact.frame);
-      some.a.set(lane, contact.lever_a, masses_[contact.a], free[contact.a]);
-      some.b.set(lane, contact.lever_b, masses_[contact.b], free[contact.b]);
+      of_lane[lane] = &contact;
+      mass_a[lane] = &masses_[contact.a], mass_b[lane] = &masses_[contact.b];
+      free_a[lane] = &free[contact.a], free_b[lane] = &free[contact.b];
       if constexpr (Springs)
         for (std::size_t d = 0; d < S::dim; ++d)
           some.compliance[d][lane] = springs_.compliance[c][Eigen::Index(d)];
     }
+    some.set_contacts(of_lane);
+    some.a.set_bodies(mass_a, free_a);
+    some.b.set_bodies(mass_b, free_b);
     some.assemble();
+    if constexpr (!Couples) {
+      Point unused;
+      std::array<Point*, lanes> points;
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        points[lane] = begin + lane < end ? &points_[begin + lane] : &unused;
+      some.write(points);
+    }
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t lane = c - begin;
       const Contact<S>& contact = contacts[c];
       Point& point = points_[c];
-      point.frame.col(0) = contact.frame.col(0);
-      some.get_tangents(lane, point.frame);
-      if constexpr (Turn::turns) turns_[c] = some.turn(lane);
-      point.lever_a = contact.lever_a;
-      point.lever_b = contact.lever_b;
       point.a = contact.a;
       point.b = contact.b;
       heads_[c] = {{contact.a, contact.b}, some.trace(lane)};
+      if constexpr (Turn::turns) turns_[c] = some.turn(lane);
       if constexpr (Couples) {
+        point.frame.col(0) = contact.frame.col(0);
+        some.get_tangents(lane, point.frame);
+        point.lever_a = contact.lever_a;
+        point.lever_b = contact.lever_b;
         point.block.point = some.block(lane);
         linear<S>(point.free) = some.free_velocity(lane);
-      } else {
-        point.block = some.block(lane);
-        point.free = some.free_velocity(lane);
       }
     }
   }

@@ -29,7 +29,8 @@ struct ImpulseTurn {
   MOREAU_COMPILED_ONCE typename S::Vector operator()(const Contact<S>& before,
                                                      const Contact<S>& now,
                                                      const typename S::Vector& vector) const {
-    return transposed_product(now.frame, product(before.frame, vector));
+    return detail::inlined_transposed_product(now.frame,
+                                              detail::inlined_product(before.frame, vector));
   }
 };
 
@@ -162,6 +163,11 @@ void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>&
   auto next = begin;  // the first contact whose key is not below
   for (std::size_t j = 0; j < before.size(); ++j) {
     const ContactKey& key = before.keys[j];
+    // Most contacts are still there: comparing for equality first takes less time.
+    if (next != end && *next == key) {
+      ++next;
+      continue;
+    }
     while (next != end && *next < key) ++next;
     if ((next != end && *next == key) || memory[j].isZero(0)) continue;
     auto first = next, last = next;

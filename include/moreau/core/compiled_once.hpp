@@ -33,8 +33,11 @@
 /// class may be called from other files as well.
 #if defined(__GNUC__) || defined(__clang__)
 #define MOREAU_INLINED [[gnu::always_inline]]
+/// The same after the parameters of a lambda.
+#define MOREAU_INLINED_LAMBDA __attribute__((always_inline))
 #else
 #define MOREAU_INLINED
+#define MOREAU_INLINED_LAMBDA
 #endif
 
 namespace moreau::detail {

@@ -35,6 +35,23 @@ template <int N, int StrideA, int StrideB, class T>
   return sum;
 }
 
+/// product(), inlined: where a loop over all contacts calls it.
+template <class T, int N>
+[[gnu::always_inline]] inline Eigen::Matrix<T, N, 1> inlined_product(
+    const Eigen::Matrix<T, N, N>& m, const Eigen::Matrix<T, N, 1>& x) {
+  Eigen::Matrix<T, N, 1> y;
+  for (int i = 0; i < N; ++i) y[i] = dot_of<N, N, 1>(m.data() + i, x.data());
+  return y;
+}
+/// transposed_product(), inlined.
+template <class T, int N>
+[[gnu::always_inline]] inline Eigen::Matrix<T, N, 1> inlined_transposed_product(
+    const Eigen::Matrix<T, N, N>& m, const Eigen::Matrix<T, N, 1>& x) {
+  Eigen::Matrix<T, N, 1> y;
+  for (int i = 0; i < N; ++i) y[i] = dot_of<N, 1, 1>(m.data() + i * N, x.data());
+  return y;
+}
+
 }  // namespace detail
 
 /// Whether all entries of a matrix or vector are finite.
@@ -49,17 +66,13 @@ bool all_finite(const Eigen::PlainObjectBase<Matrix>& m) {
 template <class T, int N>
 Eigen::Matrix<T, N, 1> product(const Eigen::Matrix<T, N, N>& m,
                                const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
-  Eigen::Matrix<T, N, 1> y;
-  for (int i = 0; i < N; ++i) y[i] = detail::dot_of<N, N, 1>(m.data() + i, x.data());
-  return y;
+  return detail::inlined_product(m, x);
 }
 /// The same of the transposed matrix.
 template <class T, int N>
 Eigen::Matrix<T, N, 1> transposed_product(const Eigen::Matrix<T, N, N>& m,
                                           const std::type_identity_t<Eigen::Matrix<T, N, 1>>& x) {
-  Eigen::Matrix<T, N, 1> y;
-  for (int i = 0; i < N; ++i) y[i] = detail::dot_of<N, 1, 1>(m.data() + i * N, x.data());
-  return y;
+  return detail::inlined_transposed_product(m, x);
 }
 /// a b.
 template <class T, int N, int K, int M>

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/compiler.hpp"
 
 namespace moreau {
@@ -43,7 +44,8 @@ namespace detail {
 /// @param twist (v, w) [m/s, rad/s], or a longer vector that begins with it
 /// @param lever from the centre of the body to the point, world axes [m]
 template <class S>
-typename S::Vector velocity_at(const auto& twist, const typename S::Vector& lever) {
+MOREAU_INLINED inline typename S::Vector velocity_at(const auto& twist,
+                                                     const typename S::Vector& lever) {
   typename S::Vector velocity = S::spin(angular<S>(twist), lever);
   for (int k = 0; k < S::dim; ++k) velocity[k] = twist[k] + velocity[k];
   return velocity;

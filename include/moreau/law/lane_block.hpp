@@ -39,6 +39,11 @@ struct LaneBlock : LocalBlock<S, NumberT> {
     for (int t = 0; t < S::dim - 1; ++t)
       Number::set(inverse_slip[Index(t)], lane, 1 / block.slip[t]);
   }
+  /// Computes the reciprocals of all lanes.
+  void invert() {
+    inverse_normal = 1 / this->normal;
+    for (Index t = 0; t < tangents; ++t) inverse_slip[t] = 1 / this->slip[t];
+  }
   /// Sets the memory of a lane to 0.
   static void forget(Memory& memory, std::size_t lane) { Number::set(memory, lane, 0); }
 };

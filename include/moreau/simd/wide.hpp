@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/compiler.hpp"
 
 namespace moreau::detail {
@@ -138,7 +139,7 @@ struct Wide {
     return fold<lanes / 2>(v, [](const Values& x, const Values& y) -> Values { return x + y; })[0];
   }
   /// Transposes a square of rows and lanes: lane l of row i becomes lane i of row l.
-  static void transpose(Values (&rows)[std::size_t{lanes}]) {
+  MOREAU_INLINED static void transpose(Values (&rows)[std::size_t{lanes}]) {
     transpose<1>(rows);
   }
 
@@ -170,7 +171,7 @@ struct Wide {
   }
   /// In every square of 2 Size rows and lanes, swaps the two off-diagonal blocks.
   template <int Size>
-  static void transpose(Values (&rows)[std::size_t{lanes}]) {
+  MOREAU_INLINED static void transpose(Values (&rows)[std::size_t{lanes}]) {
     if constexpr (Size < lanes) {
       for (int i = 0; i < lanes; ++i) {
         if (i & Size) continue;

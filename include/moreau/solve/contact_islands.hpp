@@ -65,24 +65,10 @@ class ContactIslands {
     std::array<std::uint32_t, 2> before{none, none};
     for (std::size_t c = 0; c < contacts; ++c) {
       const auto pair = op.bodies(c);
-      const auto [a, b] = pair;
-      if (!moves_[a] && !moves_[b]) {
-        of_contact_[c] = none;
-        continue;
-      }
-      std::uint32_t& island = island_of_[sets_.find(moves_[a] ? a : b)];
-      if (island == none) {
-        island = static_cast<std::uint32_t>(bodies_.size());
-        bodies_.push_back(0);
-        pairs_.push_back(0);
-        first_.push_back(0);
-      }
-      pairs_[island] += pair != before && moves_[a] && moves_[b];
+      if (pair != before) take(pair);
       before = pair;
-      of_contact_[c] = island;
-      ++first_[island + 2];
-      for (const std::uint32_t body : {a, b})
-        if (moves_[body] && !seen_[body]) seen_[body] = 1, ++bodies_[island];
+      of_contact_[c] = present_;
+      if (present_ != none) ++first_[present_ + 2];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
@@ -91,6 +77,25 @@ class ContactIslands {
       if (of_contact_[c] != none) contacts_[first_[of_contact_[c] + 1]++] = c;
   }
 
+  /// Finds the island of a pair of bodies.
+  void take(const std::array<std::uint32_t, 2>& pair) {
+    const auto [a, b] = pair;
+    present_ = none;
+    if (!moves_[a] && !moves_[b]) return;
+    std::uint32_t& island = island_of_[sets_.find(moves_[a] ? a : b)];
+    if (island == none) {
+      island = static_cast<std::uint32_t>(bodies_.size());
+      bodies_.push_back(0);
+      pairs_.push_back(0);
+      first_.push_back(0);
+    }
+    present_ = island;
+    pairs_[island] += moves_[a] && moves_[b];
+    for (const std::uint32_t body : {a, b})
+      if (moves_[body] && !seen_[body]) seen_[body] = 1, ++bodies_[island];
+  }
+
+  std::uint32_t present_ = none;  // island of the pair taken last
   DisjointSets sets_;
   std::vector<std::uint32_t> island_of_, of_contact_, contacts_;
   std::vector<unsigned char> moves_, seen_;

@@ -142,7 +142,7 @@ class ContactDetector {
   /// Whether no pair approaches in a step by more than the margin of the last detect() for it, unless that is the
   /// margin of the lengths. Call it only if has_fitted_margins().
   bool margins_suffice(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
-                       const detail::StepMotion<S>& motion) const;
+                       const detail::StepMotion<S>& motion);
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, parts, feature), with zero
   /// impulse, law and variant 0. Pairs of two bodies whose motion is prescribed have none: no impulse could

@@ -91,19 +91,21 @@ class OverlapCorrection {
                                 SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
     shifts_.assign(op.body_count(), S::Twist::Zero());
+    shifted_.clear();
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size,
                  largest = static_cast<Scalar>(options_.max_shift) * grain_size;
-    const Depths depths = find_depths(op, contacts, slop, largest, team);
+    const Depths depths = find_depths(contacts, slop, largest, team);
     report.corrected = depths.corrected;
     report.limited = depths.limited;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
+    const Scalar longest = list_candidates(op, contacts, slop, team);
     sweeps_.start(op.inverse_masses(), contacts.size());
     if (options_.islands && !shared) correct_islands(op, contacts, slop, largest);
     const Scalar guess =
         5 * depths.asked / static_cast<Scalar>(std::max<std::size_t>(1, depths.corrected));
     sweeps_.run(
-        options_.sweeps, op, contacts, candidates_, guess, std::sqrt(depths.longest),
+        options_.sweeps, op, contacts, candidates_, guess, std::sqrt(longest),
         [&](Scalar depth) { return target(depth, largest); }, team, shared);
     std::copy(sweeps_.shifts().begin(), sweeps_.shifts().end(), shifts_.begin());
     limit(largest, grain_size / 2);
@@ -115,7 +117,7 @@ class OverlapCorrection {
   std::span<const typename S::Twist> shifts() const { return shifts_; }
   /// By how much the shifts of the last solve() change the gap of one of its contacts, to first order [m].
   Scalar gap_change(const Contact<S>& contact) const {
-    if (shifts_.empty()) return 0;
+    if (shifted_.empty() || !(shifted_[contact.a] || shifted_[contact.b])) return 0;
     return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
   }
   const Options& options() const { return options_; }  ///< as given
@@ -130,34 +132,47 @@ class OverlapCorrection {
   /// Of all contacts.
   struct Depths {
     std::size_t corrected = 0, limited = 0;  // as in the report
-    Scalar longest = 0;  // square of the longest lever of a body that rotates [m^2]
-    Scalar asked = 0;    // sum of the changes of gaps that deep contacts ask for [m]
+    Scalar asked = 0;  // sum of the changes of gaps that deep contacts ask for [m]
     void add(const Depths& other) {
       asked += other.asked;
       corrected += other.corrected;
       limited += other.limited;
-      longest = std::max(longest, other.longest);
     }
   };
+  Depths find_depths(std::span<const Contact<S>> contacts, Scalar slop, Scalar largest,
+                     const Team& team) const {
+    return detail::sum_of<Depths>(team, contacts.size(), [&](Depths& depths, std::size_t c) {
+      const Scalar depth = -(contacts[c].gap + slop);
+      if (!(depth > 0)) return;
+      depths.add({1, static_cast<Scalar>(options_.rate) * depth > largest, target(depth, largest)});
+    });
+  }
   /// Fills candidates_ with all contacts.
+  /// @returns the square of the longest lever of a body that rotates [m^2]
   template <class Operator>
-  Depths find_depths(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
-                     Scalar largest, const Team& team) {
+  Scalar list_candidates(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
+                         const Team& team) {
+    struct Longest {
+      Scalar square = 0;
+      void add(const Longest& other) { square = std::max(square, other.square); }
+    };
     turns_.resize(op.body_count());
     for (std::size_t i = 0; i < turns_.size(); ++i) {
       const auto& angular = op.inverse_mass(i).angular();
       turns_[i] = std::any_of(angular.begin(), angular.end(), [](Scalar x) { return x != 0; });
     }
     candidates_.resize(contacts.size());
-    return detail::sum_of<Depths>(team, contacts.size(), [&](Depths& depths, std::size_t c) {
-      const Contact<S>& contact = contacts[c];
-      const Scalar depth = -(contact.gap + slop);
-      candidates_[c] = {depth, contact.a, contact.b, static_cast<std::uint32_t>(c)};
-      depths.add({depth > 0, static_cast<Scalar>(options_.rate) * depth > largest,
-                  std::max(turns_[contact.a] ? contact.lever_a.squaredNorm() : Scalar(0),
-                           turns_[contact.b] ? contact.lever_b.squaredNorm() : Scalar(0)),
-                  depth > 0 ? target(depth, largest) : Scalar(0)});
-    });
+    return detail::sum_of<Longest>(team, contacts.size(),
+                                   [&](Longest& longest, std::size_t c) {
+                                     const Contact<S>& contact = contacts[c];
+                                     candidates_[c] = {-(contact.gap + slop), contact.a, contact.b,
+                                                       static_cast<std::uint32_t>(c)};
+                                     if (turns_[contact.a])
+                                       longest.add({contact.lever_a.squaredNorm()});
+                                     if (turns_[contact.b])
+                                       longest.add({contact.lever_b.squaredNorm()});
+                                   })
+        .square;
   }
 
   /// Least change of a gap [m].
@@ -205,8 +220,11 @@ class OverlapCorrection {
   /// Shortens shifts by which a body would move farther than `largest` [m].
   /// @param radius distance from the centre at which rotations are measured [m]
   void limit(Scalar largest, Scalar radius) {
-    for (typename S::Twist& shift : shifts_) {
+    shifted_.assign(shifts_.size(), 0);
+    for (std::size_t i = 0; i < shifts_.size(); ++i) {
+      typename S::Twist& shift = shifts_[i];
       if (shift.isZero(0)) continue;
+      shifted_[i] = 1;
       const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
       if (length > largest) shift *= largest / length;
     }
@@ -222,6 +240,7 @@ class OverlapCorrection {
   std::vector<Candidate> candidates_;       // contacts
   detail::OverlapSweeps<S> sweeps_;
   std::vector<typename S::Twist> shifts_;
+  std::vector<unsigned char> shifted_;  // bodies whose shift is not zero; empty: none
 };
 
 }  // namespace moreau

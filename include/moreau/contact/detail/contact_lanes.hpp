@@ -5,11 +5,17 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <tuple>
+#include <type_traits>
 
+#include "moreau/contact/contact.hpp"
+#include "moreau/contact/detail/operator_point.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/law/lane_block.hpp"
 #include "moreau/law/local_block.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/simd/lane_algebra.hpp"
+#include "moreau/simd/lane_rows.hpp"
 
 namespace moreau::detail {
 
@@ -22,6 +28,7 @@ class ContactLanes {
   using Algebra = LaneAlgebra<S, Values>;
   using Vector = typename Algebra::Vector;
   static constexpr std::size_t lanes = Lanes::lanes, dim = S::dim, tangents = dim - 1;
+  using T = typename S::Scalar;
 
   /// The data of one of the two bodies.
   struct Side {
@@ -30,22 +37,49 @@ class ContactLanes {
     typename Algebra::template Symmetric<Algebra::angular> angular;
     std::array<Values, std::size_t{S::dofs}> velocity;  ///< without contacts
 
-    void set(std::size_t lane, const typename S::Vector& from_centre, const InverseMass<S>& mass,
-             const typename S::Twist& free) {
-      for (std::size_t k = 0; k < dim; ++k) lever[k][lane] = from_centre[Eigen::Index(k)];
-      for (std::size_t k = 0; k < linear.size(); ++k) linear[k][lane] = mass.linear()[k];
-      for (std::size_t k = 0; k < angular.size(); ++k) angular[k][lane] = mass.angular()[k];
-      for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k][lane] = free[Eigen::Index(k)];
+    /// @param masses,free of the body of each lane
+    void set_bodies(const std::array<const InverseMass<S>*, lanes>& masses,
+                    const std::array<const typename S::Twist*, lanes>& free) {
+      static_assert(std::is_standard_layout_v<InverseMass<S>>);
+      constexpr std::size_t linears = std::tuple_size_v<decltype(linear)>,
+                            entries = linears + std::tuple_size_v<decltype(angular)>;
+      static_assert(sizeof(InverseMass<S>) == entries * sizeof(T));
+      std::array<const T*, lanes> rows;
+      for (std::size_t l = 0; l < lanes; ++l) rows[l] = reinterpret_cast<const T*>(masses[l]);
+      read_rows<Lanes, entries>(rows, [&](auto k) MOREAU_INLINED_LAMBDA -> Values& {
+        if constexpr (k < linears)
+          return linear[k];
+        else
+          return angular[k - linears];
+      });
+      for (std::size_t l = 0; l < lanes; ++l) rows[l] = free[l]->data();
+      read_rows<Lanes, std::size_t{S::dofs}>(
+          rows, [&](auto k) MOREAU_INLINED_LAMBDA -> Values& { return velocity[k]; });
     }
   };
 
   Side a, b;
   Vector compliance{};  ///< added to the diagonal of W_cc [1/kg]
 
-  void set_frame(std::size_t lane, const typename S::Matrix& frame) {
-    for (std::size_t d = 0; d < dim; ++d)
-      for (std::size_t k = 0; k < dim; ++k)
-        axes_[d][k][lane] = frame(Eigen::Index(k), Eigen::Index(d));
+  /// @param contacts of each lane
+  void set_contacts(const std::array<const Contact<S>*, lanes>& contacts) {
+    using C = Contact<S>;
+    constexpr std::size_t begin = offsetof(C, frame) / sizeof(T), of_frame = dim * dim,
+                          to_a = of_frame + dim, to_b = to_a + dim;
+    static_assert(std::is_standard_layout_v<C> &&
+                  offsetof(C, lever_a) == (begin + of_frame) * sizeof(T) &&
+                  offsetof(C, lever_b) == (begin + to_a) * sizeof(T));
+    std::array<const T*, lanes> rows;
+    for (std::size_t l = 0; l < lanes; ++l)
+      rows[l] = reinterpret_cast<const T*>(contacts[l]) + begin;
+    read_rows<Lanes, to_b>(rows, [&](auto k) MOREAU_INLINED_LAMBDA -> Values& {
+      if constexpr (k < of_frame)
+        return axes_[k / dim][k % dim];
+      else if constexpr (k < to_a)
+        return a.lever[k - of_frame];
+      else
+        return b.lever[k - to_a];
+    });
   }
   /// Computes the blocks, turns the tangents, and computes the free velocities.
   void assemble() {
@@ -70,6 +104,33 @@ class ContactLanes {
   }
 
   // Results of assemble().
+  /// Writes the frames, levers, blocks and free velocities.
+  void write(const std::array<OperatorPoint<S, false>*, lanes>& points) const {
+    using Numbers = PointNumbers<S>;
+    using Member = typename Numbers::Member;
+    std::array<T*, lanes> rows;
+    for (std::size_t l = 0; l < lanes; ++l) rows[l] = Numbers::begin(*points[l]);
+    write_rows<Lanes, Numbers::count>(rows, [&](auto k) MOREAU_INLINED_LAMBDA -> Values {
+      constexpr auto place = Numbers::place(k);
+      constexpr std::size_t i = place.index;
+      if constexpr (place.member == Member::frame)
+        return axes_[i / dim][i % dim];
+      else if constexpr (place.member == Member::lever_a)
+        return a.lever[i];
+      else if constexpr (place.member == Member::lever_b)
+        return b.lever[i];
+      else if constexpr (place.member == Member::normal)
+        return aligned_.block.normal;
+      else if constexpr (place.member == Member::coupling)
+        return aligned_.block.coupling[i];
+      else if constexpr (place.member == Member::slip)
+        return aligned_.block.slip[i];
+      else if constexpr (place.member == Member::free)
+        return free_[i];
+      else
+        return Values{};
+    });
+  }
   void get_tangents(std::size_t lane, typename S::Matrix& frame) const {
     for (std::size_t d = 1; d < dim; ++d)
       for (std::size_t k = 0; k < dim; ++k)
@@ -93,8 +154,6 @@ class ContactLanes {
   typename S::Scalar trace(std::size_t lane) const { return trace_[lane]; }
 
  private:
-  using T = typename S::Scalar;
-
   /// Adds the part of W_cc that belongs to one body.
   void add_inertia(const Side& side, typename Algebra::template Symmetric<dim>& w) const {
     for (std::size_t i = 0; i < dim; ++i) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -69,9 +70,9 @@ struct OperatorPoint : CoupleArm<S, Couples> {
   /// The impulse on b at the point, world axes [N s].
   typename S::Vector push_of(const Vector& impulse) const {
     if constexpr (Couples)
-      return product(frame, typename S::Vector(linear<S>(impulse)));
+      return inlined_product(frame, typename S::Vector(linear<S>(impulse)));
     else
-      return product(frame, impulse);
+      return inlined_product(frame, impulse);
   }
   /// The couple of an impulse on b, world axes [N m s].
   typename S::Angular couple_of(const Vector& impulse) const requires Couples {
@@ -117,6 +118,49 @@ struct OperatorPoint : CoupleArm<S, Couples> {
       for (int k = 0; k < S::angular_dim; ++k)
         set_column(S::dim + k, S::Vector::Zero(), mass.spin_of(this->axes.col(k)));
     return part;
+  }
+};
+
+/// The numbers of an OperatorPoint without couples, from the first to those of `free`, as they lie in memory: for SIMD
+/// code that reads or writes all of them.
+template <class S>
+struct PointNumbers {
+  using Point = OperatorPoint<S, false>;
+  using T = typename S::Scalar;
+  enum class Member { frame, lever_a, lever_b, normal, coupling, slip, free, padding };
+  /// The frame is stored column after column.
+  struct Place {
+    Member member;
+    std::size_t index;  ///< in the member
+  };
+  static_assert(std::is_standard_layout_v<Point>);
+  /// How many, padding included.
+  static constexpr std::size_t count =
+      (offsetof(Point, free) + sizeof(typename Point::Vector)) / sizeof(T);
+
+  static const T* begin(const Point& point) { return reinterpret_cast<const T*>(&point); }
+  static T* begin(Point& point) { return reinterpret_cast<T*>(&point); }
+  /// Where number k belongs.
+  static constexpr Place place(std::size_t k) {
+    using Block = typename Point::Block;
+    constexpr std::size_t dim = S::dim, block = offsetof(Point, block);
+    struct Range {
+      Member member;
+      std::size_t first, entries;
+    };
+    constexpr Range ranges[] = {
+        {Member::frame, offsetof(Point, frame), dim * dim},
+        {Member::lever_a, offsetof(Point, lever_a), dim},
+        {Member::lever_b, offsetof(Point, lever_b), dim},
+        {Member::normal, block + offsetof(Block, normal), 1},
+        {Member::coupling, block + offsetof(Block, coupling), dim - 1},
+        {Member::slip, block + offsetof(Block, slip), dim - 1},
+        {Member::free, offsetof(Point, free), dim},
+    };
+    for (const Range& range : ranges)
+      if (k * sizeof(T) >= range.first && k * sizeof(T) < range.first + range.entries * sizeof(T))
+        return {range.member, k - range.first / sizeof(T)};
+    return {Member::padding, 0};
   }
 };
 

@@ -21,7 +21,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,6 +29,7 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/first_fit_colouring.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
+#include "moreau/solve/coloured/pack_filler.hpp"
 #include "moreau/solve/coloured/packs.hpp"
 #include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
@@ -47,8 +47,9 @@ class ContactGroups {
   using Group = PairGroup<Lanes::lanes>;
   using Impulse = typename Operator::Vector;
   using Block = BlockOf<Law, S>;
+  using Filler = PackFiller<Operator, Law>;
   static constexpr std::size_t lanes = Lanes::lanes, rows_of_point = Points::Block::rows;
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t none = Filler::none;
   /// Largest tr(W^-1 W_hub) of a hub whose pairs share groups.
   static constexpr auto largest_share = typename S::Scalar(0.02);
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
@@ -62,6 +63,7 @@ class ContactGroups {
   /// Number of velocities of LaneVelocities: one per body, and one per group for unused lanes and bodies
   /// that cannot move, so that groups of one colour never write the same velocity.
   std::size_t velocities() const { return body_count_ + groups.size(); }
+  std::size_t bodies() const { return body_count_; }  ///< number of bodies
 
   /// @param problem  contacts of one pair of bodies follow one another
   /// @param impulses the warm start; pairs with most points that push or approach come first within their colour
@@ -311,30 +313,36 @@ class ContactGroups {
     }
     std::uint32_t together = 0;  // points of the group
     for (const Ordered& member : members) together += points_of(member.pair);
-    const std::uint32_t with_hub =
-        group.delays_hub() ? phase_points_[group.phase - FirstFitColouring::colours] : together;
-    if (together < group.count * lanes) {
-      std::fill_n(points.begin() + group.first, group.count, Points{});
+    if (together < group.count * lanes)
       std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
                   none);
-    }
     for (std::size_t lane = 0; lane < members.size(); ++lane) {
       const std::uint32_t k = members[lane].pair;
       if (moves_[bodies_[k][0]]) group.a[lane] = bodies_[k][0];
       if (moves_[bodies_[k][1]]) group.b[lane] = bodies_[k][1];
       // Points that are likely to act come first.
       std::size_t p = group.first;
-      const std::uint32_t count = points_of(k);
+      const std::uint32_t count = points_of(k), places = std::bit_ceil(count);
       for (const bool acts : {true, false})
-        for (std::uint32_t i = 0; i < std::bit_ceil(count); ++i) {
+        for (std::uint32_t i = 0; i < places; ++i) {
           const std::uint32_t c = first_[k] + scattered(i, count);
           if (c >= first_[k + 1] || likely(op, impulses, c) != acts) continue;
-          contact_of_[p * lanes + lane] = c;
-          Block block = op.block(c);
-          if (group.hub != Hub::none) block *= heavier_by_hub(op, c, group.hub == Hub::a, with_hub);
-          set(points[p++], lane, op, block, problem.law(c), impulses[c], c);
+          contact_of_[p++ * lanes + lane] = c;
         }
     }
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      Filler::fill(points[p], &contact_of_[p * lanes], problem, impulses);
+    if (group.hub == Hub::none) return;
+    const std::uint32_t with_hub =
+        group.delays_hub() ? phase_points_[group.phase - FirstFitColouring::colours] : together;
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        const std::uint32_t c = contact_of_[p * lanes + lane];
+        if (c == none) continue;
+        Block block = op.block(c);
+        block *= heavier_by_hub(op, c, group.hub == Hub::a, with_hub);
+        points[p].block.set(lane, block);
+      }
   }
 
   /// The order in which the points of a pair are visited: i with its bits reversed. Vertices of a face often have
@@ -348,27 +356,6 @@ class ContactGroups {
     for (std::uint32_t bit = 1; bit < std::bit_ceil(count); bit *= 2, i /= 2)
       reversed = 2 * reversed + i % 2;
     return reversed;
-  }
-
-  static void set(Points& point, std::size_t lane, const Operator& op, const Block& block,
-                  const Law& law, const Impulse& impulse, std::uint32_t c) {
-    for (std::size_t d = 0; d < S::dim; ++d) {
-      const auto column = Eigen::Index(d);
-      for (std::size_t k = 0; k < S::dim; ++k)
-        point.frame[k][d][lane] = op.frame(c)(Eigen::Index(k), column);
-      point.lever_a[d][lane] = op.lever_a(c)[column];
-      point.lever_b[d][lane] = op.lever_b(c)[column];
-    }
-    if constexpr (Rolls<Law>) point.radius[lane] = op.radius(c);
-    const Impulse& free = op.free_velocity(c);
-    for (std::size_t d = 0; d < rows_of_point; ++d) {
-      const auto row = Eigen::Index(d);
-      point.free[d][lane] = free[row];
-      if constexpr (CompliantLaw<Law, S>) point.compliance[d][lane] = op.compliance(c)[row];
-      point.impulse[d][lane] = point.before[d][lane] = impulse[row];
-    }
-    point.block.set(lane, block);
-    point.law.set(lane, law);
   }
 
   std::size_t body_count_ = 0;

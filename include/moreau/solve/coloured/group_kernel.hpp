@@ -60,7 +60,7 @@ class GroupKernel {
   void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
                     SharedBodies* shared) {
     contacts_.set_impulses(op, impulses, team, shared);
-    velocity_.reset(contacts_.velocities());
+    velocity_.reset(contacts_.velocities(), contacts_.bodies());
     team.share_each(op.body_count(), 256,
                     [&](std::size_t i) { velocity_.set(i, op.velocity_change(i)); });
     velocity_.forget_change();
@@ -69,7 +69,7 @@ class GroupKernel {
   /// Computes the velocities of the bodies and of the cell from the impulses alone.
   /// @param all all groups
   MOREAU_INLINED void recompute_velocities(const std::vector<std::uint32_t>& all) {
-    velocity_.reset(contacts_.velocities());
+    velocity_.reset(contacts_.velocities(), contacts_.bodies());
     if (cell_.moves()) cell_.begin_from_zero();
     for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
       apply(k);
@@ -158,10 +158,15 @@ class GroupKernel {
     velocity_.prefetch(contacts_.groups[number].b);
   }
 
+  /// LaneVelocities::gather(), for all but the visits.
+  MOREAU_COMPILED_ONCE BodyLanes
+  gathered(const typename LaneVelocities<S, Lanes>::Bodies& bodies) const {
+    return velocity_.gather(bodies);
+  }
   /// Adds what the impulses of a group do to its bodies.
   MOREAU_INLINED void apply(std::uint32_t number) {
     const Group& group = contacts_.groups[number];
-    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    BodyLanes a = gathered(group.a), b = gathered(group.b);
     if (cell_.moves()) cell_.enter(number, b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
       push(number, contacts_.points[p], contacts_.points[p].impulse, a, b);
@@ -242,8 +247,8 @@ class GroupKernel {
   /// Whether u_n < 0 at a point of the group.
   MOREAU_COMPILED_ONCE bool approaches(std::uint32_t number) const {
     const Group& group = contacts_.groups[number];
-    const BodyLanes a = velocity_.gather(group.a);
-    BodyLanes b = velocity_.gather(group.b);
+    const BodyLanes a = gathered(group.a);
+    BodyLanes b = gathered(group.b);
     if (cell_.moves()) cell_.add_velocity(number, b);
     typename Lanes::Indices some{};
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
@@ -258,8 +263,8 @@ class GroupKernel {
 
   MOREAU_INLINED void add_residual(LaneResidual<Points>& sum, std::uint32_t number, T scale) const {
     const Group& group = contacts_.groups[number];
-    const BodyLanes a = velocity_.gather(group.a);
-    BodyLanes b = velocity_.gather(group.b);
+    const BodyLanes a = gathered(group.a);
+    BodyLanes b = gathered(group.b);
     if (cell_.moves()) cell_.add_velocity(number, b);
     for (std::uint32_t p = group.first; p < group.first + group.count; ++p) {
       const Points& point = contacts_.points[p];

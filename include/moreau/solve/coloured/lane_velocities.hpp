@@ -27,7 +27,11 @@ class LaneVelocities {
   using Bodies = std::array<std::uint32_t, std::size_t{Number::lanes}>;
 
   /// Sets all velocities to zero.
-  void reset(std::size_t count) { now_.assign(registers * count, Values{}); }
+  /// @param moving the first of them, which extrapolate() changes: the others stay zero
+  void reset(std::size_t count, std::size_t moving) {
+    now_.assign(registers * count, Values{});
+    moving_ = registers * moving;
+  }
   /// All velocities, `width` numbers each.
   std::span<T> scalars() {
     return {reinterpret_cast<T*>(now_.data()), now_.size() * std::size_t{Number::lanes}};
@@ -42,7 +46,7 @@ class LaneVelocities {
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.
   MOREAU_COMPILED_ONCE void extrapolate(T beta, int rank, int size) {
     const Values factor = Number::broadcast(beta);
-    const Share share(now_.size(), rank, size);
+    const Share share(moving_, rank, size);
     for (std::size_t i = share.begin; i < share.end; ++i) {
       const Values now = now_[i];
       now_[i] = now + factor * (now - before_[i]);
@@ -54,7 +58,7 @@ class LaneVelocities {
   void prefetch(const Bodies& bodies) const {
     for (const std::uint32_t body : bodies) __builtin_prefetch(&now_[registers * body]);
   }
-  BodyLanes gather(const Bodies& bodies) const {
+  MOREAU_INLINED BodyLanes gather(const Bodies& bodies) const {
     BodyLanes y;
     for (std::size_t k = 0; k < registers; ++k) {
       Values rows[Number::lanes];
@@ -69,17 +73,19 @@ class LaneVelocities {
 
   /// Writes the velocities of the bodies of a group; adds up the changes of all lanes for the hub.
   template <class Group>
-  void scatter(const Group& group, const BodyLanes& a, const BodyLanes& b) {
-    if (group.hub != Hub::none) add(group, scatter_partners(group, a, b));
+  MOREAU_INLINED void scatter(const Group& group, const BodyLanes& a, const BodyLanes& b) {
     if (group.hub == Hub::none) {
       scatter(group.a, a);
       scatter(group.b, b);
+    } else {
+      add(group, scatter_partners(group, a, b));
     }
   }
   /// Writes the velocities of the partners of the hub of a group.
   /// @returns the sum of the changes of all lanes for the hub
   template <class Group>
-  Change scatter_partners(const Group& group, const BodyLanes& a, const BodyLanes& b) {
+  MOREAU_COMPILED_ONCE Change scatter_partners(const Group& group, const BodyLanes& a,
+                                               const BodyLanes& b) {
     const bool hub_is_a = group.hub == Hub::a;
     scatter(hub_is_a ? group.b : group.a, hub_is_a ? b : a);
     const BodyLanes& y = hub_is_a ? a : b;
@@ -98,7 +104,7 @@ class LaneVelocities {
   }
 
  private:
-  void scatter(const Bodies& bodies, const BodyLanes& y) {
+  MOREAU_INLINED void scatter(const Bodies& bodies, const BodyLanes& y) {
     for (std::size_t k = 0; k < registers; ++k) {
       Values rows[Number::lanes];
       for (std::size_t l = 0; l < Number::lanes; ++l) rows[l] = y[k * Number::lanes + l];
@@ -115,6 +121,7 @@ class LaneVelocities {
   }
 
   std::vector<Values, CacheLineAllocator<Values>> now_, before_;
+  std::size_t moving_ = 0;  // the first of them, that extrapolate() changes
 };
 
 }  // namespace moreau::detail

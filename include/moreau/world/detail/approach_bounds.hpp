@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "moreau/core/aabb.hpp"
@@ -36,6 +37,29 @@ struct ApproachBounds {
 
   bool is_prescribed(std::size_t k) const {  ///< the motion of grain k
     return bodies.is_prescribed(grains[k].body.index());
+  }
+  /// Two grains, or a grain and a wall, approach by no more than the sum of their reaches: a bound that takes less time
+  /// than of_pair() and of_walls(), and is as good where they hardly move. It follows from those by the triangle
+  /// inequality: the centres of grains whose boxes are closer than the margin M are at most sqrt(D) (W + M) apart, W
+  /// being the width of the widest grain.
+  /// @param widest W [m]
+  /// @returns the reach of grain k [m]
+  Scalar reach(std::size_t k, Scalar widest) const {
+    return motion.reach(grains[k].body.index(), 2 * (widest + margin) + widest / 2 + margin);
+  }
+  /// The largest reach of the walls [m]; infinite if one of them turns.
+  Scalar reach_of_walls() const {
+    Scalar largest = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!(bodies.grain_mass[i] > 0))
+        largest = std::max(largest, motion.reach(i, std::numeric_limits<Scalar>::infinity()));
+    return largest;
+  }
+  /// The width of the widest grain [m].
+  Scalar widest() const {
+    Scalar widest = 0;
+    for (const GrainT& grain : grains) widest = std::max(widest, grain.width);
+    return widest;
   }
   /// Bound on the approach of pair p [m]; < 0 if its boxes are farther apart than the margin, or no impulse can
   /// change its motion.

@@ -57,22 +57,27 @@ class ContactLaws {
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context, Problem& problem, std::span<Row> impulses,
                            const auto& gap_of, const CellJumps<S>& jumps, const Team& team) {
-    const Bodies<S>& bodies = context.bodies;
-    const bool deforms = context.deforms();
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
+    // By value: a reference would be read again for every contact.
+    const Contact<S>* const points = context.contacts.points.data();
+    const Law* const laws = context.materials.laws().data();
+    const typename S::Twist* const velocities = context.bodies.velocity.data();
+    Vector* const velocity_before = before_.data();
+    const CellJumps<S>* const cell = context.deforms() ? &jumps : nullptr;
     return sum_of<Largest>(
                team, context.contacts.size(),
-               [&](Largest& fastest, std::size_t c) {
-                 const Contact<S>& contact = context.contacts.points[c];
-                 const Law& law = context.materials.laws()[contact.law];
+               [=, this, &context, &problem, &gap_of](Largest& fastest, std::size_t c) {
+                 const Contact<S>& contact = points[c];
+                 const Law& law = laws[contact.law];
                  problem.law_of[c] = law_of(context.contacts, c);
-                 before_[c] = BodyDelassus<S>::relative_velocity(
-                     contact, bodies.velocity[contact.a], bodies.velocity[contact.b]);
-                 if (deforms) before_[c] += jumps[c];
-                 fastest.add({-before_[c][0]});
+                 Vector before = BodyDelassus<S>::relative_velocity(contact, velocities[contact.a],
+                                                                    velocities[contact.b]);
+                 if (cell) before += (*cell)[c];
+                 velocity_before[c] = before;
+                 fastest.add({-before[0]});
                  const Scalar approach =
-                     before_[c][0] - add_chord(problem.delassus, context, c, before_[c]);
+                     before[0] - add_chord(problem.delassus, context, c, before);
                  const Scalar free = problem.delassus.free_velocity(c)[0];
                  const auto closing = closing_of(context, gap_of, c, law, approach, free);
                  const Scalar offset =

@@ -108,9 +108,9 @@ void ContactDetector<ShapeT, BroadPhaseT>::fit_margins(const DetectionLengths<Sc
 }
 
 template <class ShapeT, class BroadPhaseT>
-bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(
-    const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
-    const detail::StepMotion<S>& motion) const {
+bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(const DetectionLengths<Scalar>& lengths,
+                                                           const Bodies<S>& bodies,
+                                                           const detail::StepMotion<S>& motion) {
   return margins_.suffice(team_, bounds_of(lengths, bodies, motion));
 }
 

@@ -417,9 +417,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   report.correction = correct_overlaps(context);
   report.ms_correct += clock.lap();
   laws_.list_variants(context, problem_);
-  const auto gap_of = [&](std::size_t c) {
-    const Contact<S>& contact = context.contacts.points[c];
-    return contact.gap + correction_.gap_change(contact);
+  const auto gap_of = [points = context.contacts.points.data(), this](std::size_t c) {
+    return points[c].gap + correction_.gap_change(points[c]);
   };
   const Scalar approach = laws_.offset_velocities(context, problem_, context.contacts.impulses,
                                                   gap_of, cell_.jumps(), team_);

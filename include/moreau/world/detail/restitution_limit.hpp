@@ -60,7 +60,8 @@
 //
 // Without restitution and with walls at rest, the sum of G over the islands is the change of the kinetic energies of the
 // bodies, sum of d . M (2 v_f + d) / 2 with the velocities v_f without the impulses and v_f + d with them. If no body gains
-// energy, as in a packing at rest, no island does: then the contacts are not visited.
+// energy, as in a packing at rest, no island does. Otherwise the sum over the bodies of an island tells. Only if it is
+// positive, the contacts are visited: the sums over them have bounds of their rounding.
 //
 // A tangential restitution (law/tangential_restitution.hpp) is a part of the restitution: r_0 has neither.
 //
@@ -84,6 +85,7 @@
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -137,7 +139,7 @@ class RestitutionLimit {
     bouncing_.resize(impulses.size());
     islands_.resize(bodies.size());
     if (sets_.size() != bodies.size()) sets_.assign(bodies.size());
-    if (!bounces_ && all_lose(bodies, problem, free)) return;
+    if (!bounces_ && all_lose(bodies, problem, impulses, free)) return;
     negligible_ = negligible;
     measure(problem, impulses, springs, forced, Scalar(0), bouncing_);
     if (!gains(bodies, problem)) return;
@@ -209,29 +211,56 @@ class RestitutionLimit {
             std::any_of(aside_.begin(), aside_.end(), [](const Row& x) { return !x.isZero(0); });
     return any;
   }
-  /// Whether no body gains kinetic energy by the impulses; false if that is not known. The energy of the rotation is
-  /// bounded by the norm of the inertia.
-  static bool all_lose(const Bodies<S>& bodies, const Problem& problem,
-                       std::span<const typename S::Twist> free) {
+  /// Whether no island gains kinetic energy by the impulses; false if that is not known.
+  bool all_lose(const Bodies<S>& bodies, const Problem& problem, std::span<const Row> impulses,
+                std::span<const typename S::Twist> free) {
     if (free.empty() || problem.delassus.has_cell()) return false;
+    bool any = false;  // may gain
     for (std::size_t i = 0; i < free.size(); ++i) {
-      if (bodies.is_prescribed(i)) {
-        if (!free[i].isZero(0)) return false;
-        continue;
-      }
       const typename S::Twist change = problem.delassus.velocity_change(i);
-      if (change.isZero(0)) continue;
-      const InverseMass<S>& mass = problem.delassus.inverse_mass(i);
-      if (!bodies.rotates(i) || !mass.is_isotropic() || !(bodies.grain_mass[i] > 0)) return false;
+      if (bodies.is_prescribed(i) ? free[i].isZero(0) : change.isZero(0)) continue;
+      if (!bodies.rotates(i) || !problem.delassus.inverse_mass(i).is_isotropic() ||
+          !(bodies.grain_mass[i] > 0))
+        return false;
       typename S::Twist sum;
       for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
-      const double along = double(linear<S>(change).dot(linear<S>(sum))),
-                   about = double(angular<S>(change).norm()) * double(angular<S>(sum).norm());
-      if (!(double(bodies.grain_mass[i]) * along + double(bodies.inertia_body[i].norm()) * about <=
-            0))
-        return false;
+      // The inertia is bounded by its norm.
+      const double about = double(angular<S>(change).norm()) * double(angular<S>(sum).norm());
+      any = any || !(energy_along(bodies, i, change, sum) +
+                         double(bodies.inertia_body[i].norm()) * about <=
+                     0);
     }
-    return true;
+    return !any || islands_lose(bodies, problem, impulses, free);
+  }
+  /// Twice the change of the energy of the translation of a body [J].
+  static double energy_along(const Bodies<S>& bodies, std::size_t i,
+                             const typename S::Twist& change, const typename S::Twist& sum) {
+    return double(bodies.grain_mass[i]) * double(linear<S>(change).dot(linear<S>(sum)));
+  }
+  /// all_lose() for grains and bodies at rest, by the sums over the bodies of each island.
+  MOREAU_COLD bool islands_lose(const Bodies<S>& bodies, const Problem& problem,
+                                std::span<const Row> impulses,
+                                std::span<const typename S::Twist> free) {
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      bouncing_[c].acts = !impulses[c].isZero(0);
+      resting_[c].acts = false;
+    }
+    unite(bodies, problem);
+    std::fill(islands_.begin(), islands_.end(), Island{});
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      if (bodies.is_prescribed(i)) continue;
+      const typename S::Twist change = problem.delassus.velocity_change(i);
+      typename S::Twist sum;
+      for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
+      const typename S::Inertia axes = S::adjoint(bodies.pose[i].rotation);
+      const typename S::Angular turn = transposed_product(axes, angular<S>(change));
+      islands_[sets_.find(i)].gain +=
+          energy_along(bodies, i, change, sum) +
+          double(
+              product(bodies.inertia_body[i], turn).dot(transposed_product(axes, angular<S>(sum))));
+    }
+    return std::none_of(islands_.begin(), islands_.end(),
+                        [](const Island& island) { return !(island.gain <= 0); });
   }
   /// @param without share of the restitution that the operator lacks, 0 or 1
   void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
@@ -372,13 +401,8 @@ class RestitutionLimit {
   }
   /// Finds the islands of contacts that act in one of the two states, and adds up their energies.
   void add_up(const Bodies<S>& bodies, const Problem& problem) {
-    sets_.assign(bodies.size());
+    unite(bodies, problem);
     std::fill(islands_.begin(), islands_.end(), Island{});
-    for (std::size_t c = 0; c < bouncing_.size(); ++c) {
-      const auto [a, b] = problem.delassus.bodies(c);
-      if (!bouncing_[c].acts && !resting_[c].acts) continue;
-      if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) sets_.unite(a, b);
-    }
     for (std::size_t c = 0; c < bouncing_.size(); ++c) {
       const State &bounce = bouncing_[c], &rest = resting_[c];
       if (!bounce.acts && !rest.acts) continue;
@@ -397,6 +421,15 @@ class RestitutionLimit {
       island.rest_terms += std::abs(rest.gain) + std::abs(double(rest.impulse.dot(rest.velocity)));
       island.slope += double(change.dot(rest.velocity));
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
+    }
+  }
+  /// Makes the sets of bodies that contacts connect which act in one of the two states.
+  void unite(const Bodies<S>& bodies, const Problem& problem) {
+    sets_.assign(bodies.size());
+    for (std::size_t c = 0; c < bouncing_.size(); ++c) {
+      const auto [a, b] = problem.delassus.bodies(c);
+      if (!bouncing_[c].acts && !resting_[c].acts) continue;
+      if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) sets_.unite(a, b);
     }
   }
   MOREAU_INLINED std::uint32_t island_of(const Bodies<S>& bodies, const Problem& problem,

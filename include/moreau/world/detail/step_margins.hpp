@@ -76,6 +76,17 @@ struct StepMotion {
     if (!before.empty()) sum += step * relative_speed<S>(before[a], before[b], to_a, radius);
     return sum;
   }
+  /// A bound on the distance by which points of a body move that are at most a length from its centre [m].
+  typename S::Scalar reach(std::size_t i, typename S::Scalar length) const {
+    const auto speed = [&](const typename S::Twist& twist) {
+      const auto turn = angular<S>(twist).norm();
+      return linear<S>(twist).norm() + (turn > 0 ? length * turn : 0);
+    };
+    auto sum = step * speed(velocities[i]);
+    if (!shifts.empty()) sum += speed(shifts[i]);
+    if (!before.empty()) sum += step * speed(before[i]);
+    return sum;
+  }
 };
 
 /// Whether margins are chosen in a step, by how often steps had to be repeated: after a repeated step the whole
@@ -137,19 +148,23 @@ class StepMargins {
 
   /// Whether no pair can approach by more than its margin, unless that is the whole one.
   /// @param bounds ApproachBounds of the motion that has been found
-  bool suffice(const Team& team, const auto& bounds) const {
+  bool suffice(const Team& team, const auto& bounds) {
     std::atomic<bool> enough{true};
-    const auto check = [&](Scalar margin, const auto& bound) {
-      if (margin < bounds.margin && bound() > margin)
+    const auto check = [&](Scalar margin, Scalar reach, const auto& bound) {
+      if (margin < bounds.margin && !(reach <= margin) && bound() > margin)
         enough.store(false, std::memory_order_relaxed);
     };
+    const Scalar widest = bounds.widest(), reach_of_walls = bounds.reach_of_walls();
+    reach_.resize(of_grain_.size());
     team.share_each(of_grain_.size(), 256, [&](std::size_t k) {
-      check(of_walls(k, bounds.margin), [&] { return bounds.of_walls(k); });
+      reach_[k] = bounds.reach(k, widest);
+      check(of_walls(k, bounds.margin), reach_[k] + reach_of_walls,
+            [&] { return bounds.of_walls(k); });
     });
     team.share_each(near_.size(), 512, [&](std::size_t p) {
-      if (is_near(p))
-        check(of_pair(bounds.pairs[p].first, bounds.pairs[p].second, bounds.margin),
-              [&] { return bounds.of_pair(p); });
+      const auto [first, second] = bounds.pairs[p];
+      check(of_pair(first, second, bounds.margin), reach_[first] + reach_[second],
+            [&] { return bounds.of_pair(p); });
     });
     return enough;
   }
@@ -161,6 +176,7 @@ class StepMargins {
 
   std::vector<Scalar> near_;      // bound of each pair [m]; < 0: its boxes are far apart
   std::vector<Scalar> of_grain_;  // largest of the bounds of its pairs [m]
+  std::vector<Scalar> reach_;     // of each grain, see ApproachBounds [m]
   bool fitted_ = false;
 };
 
