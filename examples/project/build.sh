@@ -4,5 +4,5 @@
 set -e
 cd "$(dirname "$0")"
 cmake -S . -B build "$@" >/dev/null
-cmake --build build --parallel
+cmake --build build --parallel "$(nproc)"
 build/my_program
