@@ -159,20 +159,6 @@ class BodyDelassus {
     }
     return u;
   }
-  /// The rows of contact c, in frame(c), if its bodies have the velocities (v, w), world axes [m/s, rad/s].
-  Vector rows_of(std::size_t c, const typename S::Twist& a, const typename S::Twist& b) const {
-    const Point& point = points_[c];
-    typename S::Vector difference = detail::velocity_at<S>(b, point.lever_b);
-    difference -= detail::velocity_at<S>(a, point.lever_a);
-    const typename S::Vector along = transposed_product(point.frame, difference);
-    Vector rows;
-    for (int k = 0; k < S::dim; ++k) rows[k] = along[k];
-    if constexpr (Couples) {
-      const typename S::Angular spin = angular<S>(b) - angular<S>(a);
-      angular<S>(rows) = point.axes.transpose() * spin;
-    }
-    return rows;
-  }
   /// The normal component of velocity(c) alone [m/s].
   Scalar normal_velocity(std::size_t c) const {
     const Scalar u = points_[c].free[0] + points_[c].frame.col(0).dot(change_between(points_[c]));

@@ -47,11 +47,6 @@ class CellEquation {
     jumps_.change(servo_.rate(), context.contacts, op);
     op.add_cell(servo_.response());
   }
-  /// What the stress and the attraction have changed of the velocity of the cell at contact c since the step began, after
-  /// join(), a row of the operator [m/s].
-  auto forced(const Context& context, std::size_t c, const auto& op) const {
-    return jumps_.since(context.cell->rate(), context.contacts, c, op);
-  }
   /// Takes the rate of the cell from the operator; its free velocities have it from then on.
   void leave(const Context& context, auto& op) {
     using Row = typename std::decay_t<decltype(op)>::Vector;

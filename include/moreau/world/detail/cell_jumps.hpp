@@ -54,12 +54,6 @@ class CellJumps {
       jumps_[c] = jump;
     }
   }
-  /// The velocity of the cell at contact c less that of another rate, a row of the operator [m/s].
-  MOREAU_COLD auto since(const Matrix& rate, const auto& contacts, std::size_t c,
-                         const auto& op) const {
-    using Row = typename std::decay_t<decltype(op)>::Vector;
-    return row_of<Row>(op, c, Vector(jumps_[c] - jump_at(contacts.points[c], rate)));
-  }
   /// Velocity of the cell at contact c, contact frame [m/s].
   const Vector& operator[](std::size_t c) const { return jumps_[c]; }
 

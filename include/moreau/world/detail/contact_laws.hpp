@@ -51,18 +51,19 @@ class ContactLaws {
   }
   /// Chooses the law of each contact, computes the relative velocities before the step and adds the
   /// offsets of the laws to b.
+  /// @param velocities of the bodies before the step, in the configuration of the contacts [m/s, rad/s]
   /// @param impulses out: 0 where the law says that the contact cannot act
   /// @param gap_of   function: contact -> its gap, with the overlap correction [m]
   /// @param jumps    of the cell, if it deforms
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
-  Scalar offset_velocities(const Context& context, Problem& problem, std::span<Row> impulses,
-                           const auto& gap_of, const CellJumps<S>& jumps, const Team& team) {
+  Scalar offset_velocities(const Context& context, std::span<const typename S::Twist> velocities,
+                           Problem& problem, std::span<Row> impulses, const auto& gap_of,
+                           const CellJumps<S>& jumps, const Team& team) {
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
     // By value: a reference would be read again for every contact.
     const Contact<S>* const points = context.contacts.points.data();
     const Law* const laws = context.materials.laws().data();
-    const typename S::Twist* const velocities = context.bodies.velocity.data();
     Vector* const velocity_before = before_.data();
     const CellJumps<S>* const cell = context.deforms() ? &jumps : nullptr;
     return sum_of<Largest>(

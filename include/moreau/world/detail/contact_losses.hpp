@@ -9,7 +9,6 @@
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
@@ -26,9 +25,9 @@ struct ContactLosses {
 };
 
 template <class S, int Rows>
-void add_losses(const Bodies<S>& bodies, const Contacts<S, Rows>& contacts, std::size_t c,
-                const typename S::Vector& before, std::span<const typename S::Twist> after,
-                ContactLosses& sum) {
+void add_losses(std::span<const typename S::Twist> velocities, const Contacts<S, Rows>& contacts,
+                std::size_t c, const typename S::Vector& before,
+                std::span<const typename S::Twist> after, ContactLosses& sum) {
   const Contact<S>& contact = contacts.points[c];
   const std::uint32_t a = contact.a, b = contact.b;
   const typename S::Vector& impulse = contacts.impulse(c);
@@ -43,7 +42,7 @@ void add_losses(const Bodies<S>& bodies, const Contacts<S, Rows>& contacts, std:
   if constexpr (!Contacts<S, Rows>::has_couples) return;
   typename S::Twist turn;
   for (int k = 0; k < S::dofs; ++k)
-    turn[k] = (bodies.velocity[b][k] - bodies.velocity[a][k] + after[b][k] - after[a][k]) / 2;
+    turn[k] = (velocities[b][k] - velocities[a][k] + after[b][k] - after[a][k]) / 2;
   const double rolling =
       -double((S::angular_frame(contact.frame) * contacts.couple(c)).dot(angular<S>(turn)));
   sum.rolling += rolling;
@@ -51,16 +50,16 @@ void add_losses(const Bodies<S>& bodies, const Contacts<S, Rows>& contacts, std:
 }
 
 /// -sum r . (u before + u after)/2 over the contacts, and the same for the couples.
-/// @param bodies with the velocities before the step
-/// @param before one per contact: relative velocity before the step, contact frame [m/s]
-/// @param after  one per body: velocity after the step
+/// @param velocities one per body: velocity before the step, in the configuration of the contacts
+/// @param before     one per contact: relative velocity before the step, contact frame [m/s]
+/// @param after      one per body: velocity after the step
 template <class S, int Rows>
-ContactLosses contact_losses(const Team& team, const Bodies<S>& bodies,
+ContactLosses contact_losses(const Team& team, std::span<const typename S::Twist> velocities,
                              const Contacts<S, Rows>& contacts,
                              std::span<const typename S::Vector> before,
                              std::span<const typename S::Twist> after) {
   return sum_of<ContactLosses>(team, contacts.size(), [&](ContactLosses& sum, std::size_t c) {
-    add_losses<S>(bodies, contacts, c, before[c], after, sum);
+    add_losses<S>(velocities, contacts, c, before[c], after, sum);
   });
 }
 

@@ -130,6 +130,7 @@ class ImpulseDynamics {
   /// Stage 1.
   void predict_configuration(Bodies<S>& bodies, Scalar step) {
     momentum_.resize(bodies.size());
+    before_.resize(bodies.size());
     free_.resize(bodies.size());
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
@@ -299,18 +300,20 @@ class ImpulseDynamics {
   /// What the external forces of the step and the attraction add to the relative velocity of contact c, a row of the
   /// operator [m/s].
   Row forced(const Context& context, std::size_t c) const {
-    const auto twist = [&](std::size_t i) {
-      Twist change = free_[i] - context.bodies.velocity[i];
-      // The inertia turns, too: the spin changes without a torque.
-      angular<S>(change) = problem_.delassus.inverse_mass(i).spin_of(
-          typename S::Angular(context.step * angular<S>(context.bodies.force[i])));
-      if constexpr (AttractiveLaw<Law, S>)
-        angular<S>(change) += angular<S>(free_[i]) - angular<S>(unattracted_[i]);
-      return change;
-    };
-    const auto [a, b] = problem_.delassus.bodies(c);
-    Row row = problem_.delassus.rows_of(c, twist(a), twist(b));
-    if (cell_.moves(context)) row += cell_.forced(context, c, problem_.delassus);
+    const Contact<S>& contact = context.contacts.points[c];
+    Vector change = BodyDelassus<S>::relative_velocity(contact, free_[contact.a], free_[contact.b]);
+    change -= laws_.velocities_before()[c];
+    if (context.deforms()) change += cell_.jumps()[c];
+    const Vector along = problem_.delassus.turned(c, change);
+    Row row;
+    for (int k = 0; k < S::dim; ++k) row[k] = along[k];
+    if constexpr (RollingLaw<Law, S>) {
+      const Twist turn =
+          (free_[contact.b] - before_[contact.b]) - (free_[contact.a] - before_[contact.a]);
+      angular<S>(row) =
+          problem_.delassus.radius(c) *
+          (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(turn));
+    }
     return row;
   }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
@@ -324,8 +327,8 @@ class ImpulseDynamics {
     if constexpr (bonding) {
       const auto losses = [&](std::size_t c) {
         ContactLosses one;
-        add_losses<S>(context.bodies, context.contacts, c, laws_.velocities_before()[c],
-                      std::span<const Twist>(after_), one);
+        add_losses<S>(std::span<const Twist>(before_), context.contacts, c,
+                      laws_.velocities_before()[c], std::span<const Twist>(after_), one);
         return one;
       };
       bonds_.end_step(context.contacts, losses, springs_, report);
@@ -335,8 +338,9 @@ class ImpulseDynamics {
   void measure_losses(const Context& context, StepReport& report) {
     // The mean of the velocities before and after has the cell's once, too.
     if (context.deforms()) laws_.add_jumps(cell_.jumps());
-    const ContactLosses losses = contact_losses<S>(team_, context.bodies, context.contacts,
-                                                   laws_.velocities_before(), std::span(after_));
+    const ContactLosses losses =
+        contact_losses<S>(team_, std::span<const Twist>(before_), context.contacts,
+                          laws_.velocities_before(), std::span(after_));
     report.friction += losses.friction;
     report.rolling += losses.rolling;
     report.dissipation += losses.dissipation;
@@ -373,8 +377,10 @@ class ImpulseDynamics {
 
   // One entry per body.
   std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
-  std::vector<Twist> free_, after_;            // velocities without and with the impulses
-  std::vector<Twist> unattracted_;  // free_ without the attraction of the law, if it has one
+  // Velocities before the step, with the spins of momentum_ in the configuration of the contacts: the inertia turns.
+  std::vector<Twist> before_;
+  std::vector<Twist> free_, after_;  // velocities without and with the impulses
+  std::vector<Twist> unattracted_;   // free_ without the attraction of the law, if it has one
   std::vector<MobilityRoot<S>> roots_;
   std::vector<unsigned char> touched_;  // by contacts
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
@@ -387,7 +393,13 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Con
                                                                        StepReport& report) {
   StepReport::StageClock clock;
   const Bodies<S>& bodies = context.bodies;
-  team_.share_each(bodies.size(), 128, [&](std::size_t i) { roots_[i] = bodies.mobility_root(i); });
+  team_.share_each(bodies.size(), 128, [&](std::size_t i) {
+    roots_[i] = bodies.mobility_root(i);
+    before_[i] = bodies.velocity[i];
+    const typename S::Inertia& root = roots_[i].angular;
+    if (bodies.rotates(i))
+      angular<S>(before_[i]) = product(root, typename S::Angular(product(root, momentum_[i])));
+  });
   const std::span free(free_);
   free_velocity<S>(integrator_, bodies, context.gravity, momentum_, free, context.step, team_);
   if (context.deforms())
@@ -420,8 +432,9 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   const auto gap_of = [points = context.contacts.points.data(), this](std::size_t c) {
     return points[c].gap + correction_.gap_change(points[c]);
   };
-  const Scalar approach = laws_.offset_velocities(context, problem_, context.contacts.impulses,
-                                                  gap_of, cell_.jumps(), team_);
+  const Scalar approach =
+      laws_.offset_velocities(context, std::span<const Twist>(before_), problem_,
+                              context.contacts.impulses, gap_of, cell_.jumps(), team_);
   report.approach = double(approach * context.step / context.margin);
   solve(context, report);
   report.ms_contacts += clock.lap();
