@@ -25,6 +25,13 @@
 // centre in the norm of s. With the warm start as centre, equal s and no lift where contacts stick, what has changed
 // is shared among the contacts as if by equal springs: of a pair that touches anew the pressure is even. Sweeps give it
 // to the point that they visit first, and with friction such an uneven pressure can turn a body.
+//
+// Where faces slide, the lifts would spoil this: an error d of a lift changes an impulse by d / s. There the limit mu r_n of
+// the friction of each contact is fixed in a proximal step, in place of the lifts, and the next step has the limit of the
+// pressure found (P. D. Panagiotopoulos, Ingenieur-Archiv 44 (1975) 421). The steps begin with a uniform pressure on
+// each face, whose sum is that of the impulses before. The pressure that they find is nearest to it: uniform, and what the
+// equilibrium of each body adds to it, which is linear in the position. The motion depends on the choice: under an uneven
+// pressure a face that spins drifts aside, and a body that slides between two faces turns.
 #pragma once
 
 #include <algorithm>
@@ -113,6 +120,7 @@ class IslandNewton {
   ///          factorization
   double start(std::span<const Impulse> impulses) {
     step_.start(impulses);
+    slides_ = can_turn && step_.sliding_points() > std::size_t(S::dim);
     return step_.defect();
   }
 
@@ -151,6 +159,18 @@ class IslandNewton {
     }
     return error;
   }
+  /// Whether faces slide whose pressure may not be unique, with the impulses of start(). In the plane it is, or the motion
+  /// does not depend on it.
+  bool slides_on_faces() const { return can_turn && slides_; }
+  /// solve(), near impulses that press evenly on each face, with limits of friction in place of lifts.
+  double solve_evenly(double epsilon, Precision precision) {
+    // Errors are relative to the fastest body, and a light one can be much faster than those that slide.
+    precision.tolerance = std::max(precision.tolerance * step_.stopped(), least_even_tolerance);
+    step_.even_faces();
+    const double error = solve(epsilon, precision);
+    is_better_ = error <= precision.tolerance;
+    return error;
+  }
   /// Whether the impulses that solve() has found are better than those from which it started, as far as is known:
   /// the last proximal step changed the motion no more than the first one.
   bool is_better() const { return is_better_; }
@@ -173,6 +193,11 @@ class IslandNewton {
   static constexpr double visits_per_contact = 5 * S::angular_dim,
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
+  /// Whether a face can turn while it slides. In the plane it is a line, and friction acts along it, whatever the pressure.
+  static constexpr bool can_turn = bool(S::dim - 2);
+  static constexpr double least_even_tolerance = 1e-9;
+  static constexpr double slow_q =
+      0.7;  ///< the same, at which limits of friction converge too slowly
 
   /// The errors of the proximal steps that were taken, as solve() returns them [-].
   struct Errors {
@@ -198,6 +223,9 @@ class IslandNewton {
         step_.first_lifts();  // the error is that of rounding: the step before is better
         break;
       }
+      // The limits of friction do not converge, or slowly: other methods are faster.
+      if (step_.has_limits() && before > 0 && !errors.is_solved() && change > slow_q * before)
+        break;
       if (first_ == 0) first_ = change;
       is_better_ = change <= first_;
       step_.accept();
@@ -217,6 +245,7 @@ class IslandNewton {
 
   Step step_;
   double first_ = 0;        // see first_change()
+  bool slides_ = false;     // see slides_on_faces()
   bool is_better_ = false;  // the impulses than those from which solve() started
 };
 

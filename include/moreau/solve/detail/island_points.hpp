@@ -110,6 +110,7 @@ class IslandPoints {
     std::uint32_t body_a, body_b;  ///< in the island; none: cannot move
     std::uint32_t contact;         ///< in the problem
     double friction;               ///< mu [-]
+    std::uint32_t face;  ///< contacts that follow one another, of two bodies and with one normal
   };
 
   /// A contact as the problem has it.
@@ -130,6 +131,7 @@ class IslandPoints {
     speeds_.clear();
     bodies_.clear();
     edges_.clear();
+    faces_ = 0;
     has_smooth_ = false;
   }
   /// Adds a contact, unless it cannot act. Contacts of the same two bodies follow one another.
@@ -156,6 +158,13 @@ class IslandPoints {
         (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))
       edges_.push_back({point.body_a, point.body_b});
     has_smooth_ = has_smooth_ || point.friction == 0;
+    point.face = faces_;
+    const Normal normal = source.frame.col(0).template cast<double>();
+    if (!points_.empty() && (pair_ != std::array{source.body_a, source.body_b} ||
+                             !(normal.dot(normal_) > in_one_plane)))
+      point.face = ++faces_;
+    pair_ = {source.body_a, source.body_b};
+    normal_ = normal;
     points_.push_back(point);
   }
   /// Ends the island.
@@ -195,6 +204,8 @@ class IslandPoints {
 
  private:
   using Root = Eigen::Matrix<double, dofs, dofs>;
+  using Normal = Eigen::Matrix<double, dim, 1>;
+  static constexpr double in_one_plane = 1 - 1e-6;
 
   /// The number of a body in the island.
   MOREAU_COLD std::uint32_t local(std::uint32_t body, const InverseMass<S>& mass) {
@@ -247,6 +258,10 @@ class IslandPoints {
   std::vector<std::uint32_t> bodies_, number_;
   std::vector<std::array<std::uint32_t, 2>> edges_;
   bool has_smooth_ = false;
+  // Of the last point: its face, normal and bodies in the problem.
+  std::uint32_t faces_ = 0;
+  Normal normal_;
+  std::array<std::uint32_t, 2> pair_;
 };
 
 }  // namespace moreau::detail

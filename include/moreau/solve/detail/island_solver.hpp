@@ -66,7 +66,7 @@ class IslandSolver {
       if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
-        attempt(one, impulses);
+        if (!attempt_evenly(one, impulses, 0, one.defect)) attempt(one, impulses);
       }
       small_.push_back(one);
     }
@@ -96,6 +96,7 @@ class IslandSolver {
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
       const double defect = newton_.start(impulses);
+      if (!one.failed && attempt_evenly(one, impulses, sweeps, defect)) continue;
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && swept) continue;
       // Sweeps give the load of a pair to the point that they visit first.
@@ -113,7 +114,7 @@ class IslandSolver {
       solve_directly(one, impulses, late_epsilon, most_steps, defect);
     }
   }
-  /// Whether finish() has made the pressures of an island even that had no warm start.
+  /// Whether the pressures of an island were made even that slides or had no warm start.
   bool made_even() const { return made_even_; }
   /// Whether the direct method has estimated the error of an island.
   bool attempted() const {
@@ -151,10 +152,11 @@ class IslandSolver {
   struct Small {
     std::size_t island;
     double cost;  // of a Newton step, in visits of its contacts by a sweep, at first a lower bound
-    double defect;  // of the warm start, see IslandNewton::start()
-    bool is_new;    // no contact has an impulse in the warm start
-    double error;   // relative [-]
-    double swept;   // the same of the impulses from which the direct method started, at least
+    double defect;        // of the warm start, see IslandNewton::start()
+    bool is_new;          // no contact has an impulse in the warm start
+    double error;         // relative [-]
+    double swept;         // the same of the impulses from which the direct method started, at least
+    bool failed = false;  // attempt_evenly()
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
@@ -204,6 +206,23 @@ class IslandSolver {
     const double error = 10 * n * n * newton_.mass_ratio() * defect;
     if (!(error <= tolerance_) || newton_.has_smooth_point()) return false;
     one.error = error;
+    return true;
+  }
+  /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
+  /// @returns whether it succeeds; if not, the impulses are those of start()
+  bool attempt_evenly(Small& one, Impulses impulses, int sweeps, double defect) {
+    if (!newton_.slides_on_faces()) return false;
+    find_cost(one);
+    if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
+    const double error =
+        newton_.solve_evenly(late_epsilon, {tolerance_, least_epsilon, most_steps});
+    one.failed = !newton_.is_better();
+    if (one.failed) {
+      newton_.start(impulses);
+      return false;
+    }
+    keep(one, impulses, error, defect);
+    made_even_ = true;
     return true;
   }
   /// Before the sweeps.

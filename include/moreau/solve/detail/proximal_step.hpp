@@ -37,6 +37,7 @@ class ProximalStep {
   MOREAU_INLINED void make_room() {
     const std::size_t count = points_.points().size();
     lift_.resize(count);
+    limit_.resize(count);
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
@@ -51,25 +52,32 @@ class ProximalStep {
   /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
   void start(std::span<const Impulse> impulses) {
     common_ = 0;
+    has_limits_ = false;
     set_centre(impulses);
     move_to_centre();
     first_lifts();
   }
-  /// Sets the lifts of the motion of the centre.
+  /// Sets the velocities of the contacts in the motion of the centre, and their lifts.
   void first_lifts() {
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
-      Vector u = point.free + points_.velocity(point, y_);
+      Vector& u = slip_[k];
+      u = point.free + points_.velocity(point, y_);
       for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
       lift_[k] = point.friction * slip_of(u);
     }
   }
   /// Gives all contacts one compliance, epsilon times the least w, and no lift.
   MOREAU_INLINED void make_even() {
-    common_ = std::numeric_limits<double>::infinity();
-    for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
+    make_common();
     std::fill(lift_.begin(), lift_.end(), 0);
   }
+  /// Gives all contacts one compliance, epsilon times the least w.
+  MOREAU_INLINED void make_common() {
+    common_ = std::numeric_limits<double>::infinity();
+    for (const auto& point : points_.points()) common_ = std::min(common_, point.diagonal);
+  }
+  bool has_limits() const { return has_limits_; }  ///< after even_faces()
   /// Whether a contact has a lift.
   bool has_lift() const {
     return std::any_of(lift_.begin(), lift_.end(), [](double s) { return s > 0; });
@@ -96,6 +104,46 @@ class ProximalStep {
     }
     const double motion = scale(y_);
     return motion > 0 ? fastest / motion : 0;
+  }
+
+  /// How many points lie on faces that slide, with the impulses of start(). Faces are those of two points and more.
+  MOREAU_INLINED std::size_t sliding_points() {
+    const double motion = scale(y_);
+    closed_ = 1e-6 * motion;
+    stopped_ = motion;
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < centre_.size();) {
+      const Face face = find_face(first);
+      if (face.slides()) {
+        count += face.points;
+        stopped_ = std::min(stopped_, face.stopped);
+      }
+      first = face.last;
+    }
+    if (motion > 0) stopped_ /= motion;
+    return count;
+  }
+  /// After sliding_points(): the least velocity that friction on a face can change in the step, relative to the largest
+  /// change of a velocity by the impulses, which may be that of a light body [-]. At most 1.
+  double stopped() const { return stopped_; }
+  /// Makes the pressure of each face uniform in the centre. Its sum remains. From now on the friction of each contact
+  /// has a limit, which take_lifts() sets. After sliding_points().
+  MOREAU_INLINED void even_faces() {
+    first_lifts();
+    make_common();
+    has_limits_ = true;
+    for (std::size_t first = 0, last; first < centre_.size(); first = last) {
+      const Face face = find_face(first);
+      last = face.last;
+      for (std::size_t k = first; k < last; ++k) {
+        if (face.points > 1) centre_[k][0] = is_closed(k) ? face.sum / double(face.points) : 0;
+        limit_[k] = points_.points()[k].friction * centre_[k][0];
+        if (!face.slides()) continue;
+        const double slip = slip_of(slip_[k]);
+        for (int i = 1; i < S::dim; ++i)
+          centre_[k][i] = slip > 0 ? -limit_[k] * slip_[k][i] / slip : 0;
+      }
+    }
   }
 
   /// Counts the steps of Newton's method from zero.
@@ -132,13 +180,17 @@ class ProximalStep {
     move_by_impulses();
     return true;
   }
-  /// Sets the lifts of the motion that a proximal step has found.
+  /// Sets the lifts, or the limits, of the motion that a proximal step has found.
   /// @returns the largest change of a lift and of the velocity of a body by the step, relative to scale() [-]
   MOREAU_INLINED double take_lifts() {
     double largest = 0;
     for (std::size_t i = 0; i < y_.size(); ++i)
       largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
     for (std::size_t k = 0; k < lift_.size(); ++k) {
+      if (has_limits_) {
+        limit_[k] = points_.points()[k].friction * found_[k][0];
+        continue;
+      }
       const double lift = points_.points()[k].friction * slip_of(slip_[k]);
       if (found_[k][0] > 0) largest = std::max(largest, std::abs(lift - lift_[k]));
       lift_[k] = lift;
@@ -180,7 +232,9 @@ class ProximalStep {
   /// Writes the impulses of the centre [N s].
   void finish(std::span<Impulse> impulses) const {
     for (std::size_t k = 0; k < centre_.size(); ++k)
-      impulses[points_.points()[k].contact] = centre_[k].template cast<typename S::Scalar>();
+      impulses[points_.points()[k].contact] =
+          centre_[k][0] > 0 ? Impulse(centre_[k].template cast<typename SpaceT::Scalar>())
+                            : Impulse(Impulse::Zero());
   }
   /// Calls take(body, its change of velocity) for each body, in the motion of the centre.
   MOREAU_INLINED void finish_motion(const auto& take) const {
@@ -189,6 +243,36 @@ class ProximalStep {
 
  private:
   using Vector = typename Points::Vector;
+  /// The points of one face.
+  struct Face {
+    std::size_t last = 0;    // one beyond its last contact
+    std::size_t points = 0;  // that are closed
+    double sum = 0;          // of the pressure [N s]
+    double slip = 0;         // of the fastest point [m/s]
+    double stopped = 0;      // velocity that friction can change in a step, about [m/s]
+    bool slides() const {
+      constexpr double rest = 1e-3;
+      return points > 1 && stopped > 0 && slip > rest * stopped;
+    }
+  };
+  bool is_closed(std::size_t k) const { return centre_[k][0] > 0 || slip_[k][0] <= closed_; }
+  MOREAU_INLINED Face find_face(std::size_t first) const {
+    Face face;
+    const auto points = points_.points();
+    double mobility = 0;
+    for (std::size_t k = first; k < points.size() && points[k].face == points[first].face; ++k) {
+      const auto& point = points[k];
+      face.last = k + 1;
+      if (!is_closed(k)) continue;
+      ++face.points;
+      face.sum += centre_[k][0];
+      face.slip = std::max(face.slip, slip_of(slip_[k]));
+      mobility = std::max(
+          mobility, point.friction * (point.a.row(1).squaredNorm() + point.b.row(1).squaredNorm()));
+    }
+    face.stopped = mobility * face.sum;
+    return face;
+  }
   using Coordinates = typename Points::Coordinates;
   static constexpr std::size_t polish_bodies = 10;
 
@@ -227,6 +311,10 @@ class ProximalStep {
         b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
       }
       slip_[k] = b;
+      if (has_limits_) {
+        slide(k, s, b);
+        continue;
+      }
       b[0] += lift_[k];
       if (is_open<S>(point.friction, b)) {
         found_[k].setZero();  // stiffness_ is not used
@@ -249,6 +337,30 @@ class ProximalStep {
       rest = std::max(rest, std::sqrt(square) * points_.speed(i));
     }
     return {std::sqrt(squares), rest};
+  }
+
+  /// respond() for a point whose friction has a given limit (Tresca's law).
+  void slide(std::size_t k, const Vector& s, const Vector& b) {
+    Vector& r = found_[k];
+    double square = 0;
+    for (int i = 0; i < S::dim; ++i) r[i] = -b[i] / s[i];
+    for (int i = 1; i < S::dim; ++i) square += r[i] * r[i];
+    stiffness_[k].setZero();
+    stiffness_[k](0, 0) = r[0] > 0 ? 1 / s[0] : 0;
+    r[0] = std::max(0.0, r[0]);
+    const double length = std::sqrt(square), share = length > limit_[k] ? limit_[k] / length : 1;
+    for (int i = 1; i < S::dim; ++i) {
+      stiffness_[k](i, i) = share / s[i];
+      if (share < 1)
+        for (int j = 1; j < S::dim; ++j) stiffness_[k](i, j) -= share / s[i] * r[i] * r[j] / square;
+    }
+    Vector back;
+    for (int i = 0; i < S::dim; ++i) {
+      if (i > 0) r[i] *= share;
+      slip_[k][i] += s[i] * r[i];
+      back[i] = -r[i];
+    }
+    points_.push(points_.points()[k], back, f_);
   }
 
   /// Sets next_ to the motion by the impulses of the last respond().
@@ -314,7 +426,7 @@ class ProximalStep {
     for (std::size_t i = 0; i < points_.bodies(); ++i) matrix_.diagonal(i).setIdentity();
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
-      if (found_[k][0] == 0) continue;
+      if (found_[k][0] == 0 && !has_limits_) continue;
       if (point.body_a != Points::none)
         add_block(matrix_.diagonal(point.body_a), point.a, stiff(k, point.a));
       if (point.body_b == Points::none) continue;
@@ -337,6 +449,10 @@ class ProximalStep {
   double common_ = 0;  // in place of w, > 0 [1/kg]; 0: each contact has its own
   std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
   std::vector<double> lift_;                   // sigma [m/s]
+  bool has_limits_ = false;                    // of friction, in place of lifts
+  double stopped_ = 1;                         // see stopped()
+  double closed_ = 0;          // contacts that are not faster apart are closed [m/s]
+  std::vector<double> limit_;  // mu r_n [N s]
   std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
   std::vector<Coordinates> y_;                                    // of the centre
   std::vector<Coordinates> next_, trial_, f_, direction_;
