@@ -211,7 +211,11 @@ class IslandSolver {
   /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
   /// @returns whether it succeeds; if not, the impulses are those of start()
   bool attempt_evenly(Small& one, Impulses impulses, int sweeps, double defect) {
-    if (!newton_.slides_on_faces()) return false;
+    // With springs the pressure is unique.
+    constexpr bool springs = requires(const Operator op) {
+      op.compliance(std::size_t());
+    };
+    if (springs || !newton_.slides_on_faces()) return false;
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
     const double error =
