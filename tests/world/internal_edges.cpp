@@ -218,6 +218,67 @@ TEST_CASE_TEMPLATE("a compound grain slides over flush parts and flush obstacles
     }
 }
 
+namespace {
+
+/// A polygon, or the prism of the same outline with the third axis along y, 0.1 wide.
+template <class Part>
+Part prism_of(const std::vector<Eigen::Vector2d>& outline) {
+  std::vector<typename SpaceOf<Part>::Vector> points;
+  for (const Eigen::Vector2d& x : outline)
+    if constexpr (SpaceOf<Part>::dim == 2)
+      points.push_back(x);
+    else
+      for (const double side : {-0.05, 0.05}) points.push_back({x[0], side, x[1]});
+  return Part(points);
+}
+/// Two arms of length 0.3 along (+-sin angle, cos angle), which meet in the origin, their seam below it.
+template <class Part>
+Compound<Part> notch(double angle) {
+  std::vector<Part> arms;
+  for (const double side : {1.0, -1.0}) {
+    const Eigen::Vector2d end = 0.3 * Eigen::Vector2d(side * std::sin(angle), std::cos(angle));
+    const Eigen::Vector2d below(0, -0.2);
+    arms.push_back(prism_of<Part>({{0, 0}, end, end + 2 * below, below}));
+  }
+  return Compound<Part>(arms);
+}
+
+}  // namespace
+
+// The sides of a tip in a concave corner are the axes of least overlap with both arms, at their seam: the tip passed.
+TEST_CASE_TEMPLATE("a tip stays in the concave corner in which a seam ends", Part,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
+  using S = SpaceOf<Part>;
+  using Law = SignoriniCoulomb<>;
+  const auto up = typename S::Vector(S::Vector::Unit(S::dim - 1));
+  for (const double angle : {0.5, 0.8, 1.05})
+    for (const double sharpness : {0.3, 0.7, 0.95})
+      for (const bool hangs :
+           {false, true}) {  // the notch on the tip, upside down, or the tip in the notch
+        typename WorldOf<Compound<Part>>::type world(0.05, Materials<Law>(1, Law(0.3)));
+        const double half = sharpness * angle;
+        const Eigen::Vector2d side(0.1 * std::sin(half), 0.1 * std::cos(half));
+        const std::vector<Part> cone{prism_of<Part>({{0, 0}, side, {-side[0], side[1]}})};
+        const Compound<Part> tip(cone), corner = notch<Part>(angle);
+        const auto add = [&](const Compound<Part>& shape, double aside) {
+          typename S::Vector at = shape.centroid_of_input();
+          at[0] += aside;
+          return world.add_grain(world.add_shape(shape), {at, S::identity()}, 1000);
+        };
+        const BodyId of_corner = add(corner, 0), of_tip = add(tip, hangs ? 0 : 0.001);
+        world.prescribe_motion(hangs ? of_tip : of_corner);
+        const BodyId grain = hangs ? of_corner : of_tip;
+        world.set_gravity((hangs ? 9.81 : -9.81) * up);
+        const auto before = world.pose(grain).position;
+        for (int k = 0; k < 300; ++k) world.step(1e-3);
+        CAPTURE(S::dim);
+        CAPTURE(angle);
+        CAPTURE(sharpness);
+        CAPTURE(hangs);
+        CHECK(std::abs((world.pose(grain).position - before).dot(up)) < 0.003);
+      }
+}
+
 TEST_CASE_TEMPLATE("steps, side walls and ramps stay", ShapeT, Polygon<>, Polyhedron<>) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;

@@ -4,6 +4,7 @@
 // only parts whose boxes are near: world/detail/pair_caches.hpp.)
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,9 @@
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/polytope/axis.hpp"
+#include "moreau/detect/polytope/detail/feature_axis.hpp"
+#include "moreau/detect/polytope/make_manifold.hpp"
+#include "moreau/detect/polytope/polytope_pair.hpp"
 #include "moreau/detect/shape_kinds.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
@@ -140,6 +144,41 @@ bool is_at_seam(const Placed<ShapeT>& a, std::uint32_t part_a, const Placed<Shap
   }
 }
 
+/// Collides two parts that overlap along a face that is not inside one of the grains. The axis of two parts can be at a
+/// seam although they overlap elsewhere: of a tip in a concave corner whose seam ends in the corner, both parts have a
+/// vertex there, and the sides of the tip are the axes of least overlap.
+/// @param out of the collision that is at a seam (is_at_seam()); replaced if the parts are in contact
+/// @returns whether they are: not if they do not overlap, or overlap by more than what is not seen of a part
+template <CompoundShape ShapeT>
+[[gnu::cold, gnu::noinline]] bool collide_outside(const Placed<ShapeT>& a, std::uint32_t part_a,
+                                                  const Placed<ShapeT>& b, std::uint32_t part_b,
+                                                  typename SpaceOf<ShapeT>::Scalar margin,
+                                                  Manifold<SpaceOf<ShapeT>>& out) {
+  if constexpr (has_seams<ShapeT>) {
+    using S = SpaceOf<ShapeT>;
+    using T = typename S::Scalar;
+    const PolytopePair pair(a.part(part_a), b.part(part_b));
+    if (out.gap > pair.rounding()) return false;
+    Axis<S> best;
+    best.gap = -T(seam_tolerance) * std::min(pair.a.radius(), pair.b.radius());
+    const auto take = [&](const Axis<S>& axis) {
+      if (!(axis.gap > best.gap)) return;
+      PairCache<S> features;
+      features.kind = axis.kind;
+      features.a = axis.a;
+      features.b = axis.b;
+      if (!is_at_seam(a, part_a, b, part_b, features, axis.normal)) best = axis;
+    };
+    for (std::uint32_t f = 0; f < pair.a.normals().size(); ++f) take(axis_of_face_a(pair, f));
+    for (std::uint32_t f = 0; f < pair.b.normals().size(); ++f) take(axis_of_face_b(pair, f));
+    if (best.kind == AxisKind::none) return false;
+    make_manifold(pair, FoundAxis<S>{best}, margin, out);
+    return true;
+  } else {
+    return false;
+  }
+}
+
 /// The kind of a's feature of a contact point with a mesh wall.
 template <class S>
 constexpr FeatureKind feature_on_wall(FeatureKey key) {
@@ -195,7 +234,9 @@ bool collide_parts(const Placed<A>& a, const Placed<B>& b, typename SpaceOf<A>::
       PairCache<SpaceOf<A>> none;
       if (!collide(part_a, part_b, margin, out, none)) return;
       if constexpr (std::same_as<A, B> && CompoundShape<A>)
-        if (detail::is_at_seam(a, i, b, j, none, out.normal)) return;
+        if (detail::is_at_seam(a, i, b, j, none, out.normal) &&
+            !detail::collide_outside(a, i, b, j, margin, out))
+          return;
       out.part_a = i;
       out.part_b = j;
       touch = true;

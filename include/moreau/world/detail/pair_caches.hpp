@@ -204,7 +204,8 @@ class PairCaches<ShapeT> {
       const auto [i, j] = parts_[k];
       if (!a.box(i).inflated(margin).overlaps(b.box(j)) ||
           !collide(a.part(i), b.part(j), margin, out, caches_[k]) ||
-          is_at_seam(a, i, b, j, caches_[k], out.normal))
+          (is_at_seam(a, i, b, j, caches_[k], out.normal) &&
+           !collide_outside(a, i, b, j, margin, out)))
         continue;
       out.part_a = i;
       out.part_b = j;
