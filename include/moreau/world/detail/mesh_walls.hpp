@@ -27,8 +27,13 @@ namespace moreau::detail {
 /// The buffers with which one thread collides grains with mesh walls.
 template <class ShapeT>
 struct MeshBuffers {
+  using S = SpaceOf<ShapeT>;
   std::optional<Placed<ShapeT>> local;  ///< the grain in the frame of the wall
   MeshScratch scratch;
+  // Of a compound grain, in the frame of the wall:
+  std::vector<typename S::Vector> kept;  ///< contact points [m]
+  std::vector<Manifold<S>> at_seams;     ///< contacts that were left out, first `left_out` of them
+  std::size_t left_out = 0;
 };
 
 /// A grain, and the same in the world.
@@ -147,6 +152,32 @@ class MeshWalls {
         detect_at(grain, bodies.pose[body], wall, reach, previous, buffers, found);
     }
   }
+  /// Takes the points at seams out of a contact of a part; of those that overlap it keeps a copy.
+  /// @returns whether points are left
+  static bool leave_out_seams(std::uint32_t part, Manifold<S>& manifold,
+                              MeshBuffers<ShapeT>& buffers) {
+    const auto is_kept = [&] { return !manifold.points.empty(); };
+    if (manifold.gap < 0) {
+      if (buffers.at_seams.size() == buffers.left_out) buffers.at_seams.emplace_back();
+      buffers.at_seams[buffers.left_out] = manifold;
+    }
+    const auto dropped =
+        drop_points_at_seams(*buffers.local, part, manifold.points, manifold.normal);
+    if (dropped != 0 && !is_kept() && manifold.gap < 0) ++buffers.left_out;
+    if (dropped != 0 && is_kept())
+      manifold.contact_class = class_at_plane(S{}, manifold.points.size());
+    for (const auto& point : manifold.points) buffers.kept.push_back(point.position);
+    return is_kept();
+  }
+  /// Whether a contact at a seam has no other one beside it: of a tip in a concave corner in which the seam ends.
+  static bool is_alone(const Manifold<S>& manifold, const MeshBuffers<ShapeT>& buffers) {
+    const Scalar beside = Scalar(seam_tolerance) * buffers.local->part(manifold.part_a).radius();
+    return std::none_of(buffers.kept.begin(), buffers.kept.end(), [&](const Vector& x) {
+      return std::any_of(manifold.points.begin(), manifold.points.end(), [&](const auto& point) {
+        return (x - point.position).squaredNorm() < beside * beside;
+      });
+    });
+  }
   static void detect_at(const GrainInWorld<ShapeT>& grain, const Pose<S>& pose, Wall& wall,
                         const Reach& reach, const PreviousContacts<S>& previous,
                         MeshBuffers<ShapeT>& buffers, FoundContacts<S>& found) {
@@ -162,24 +193,30 @@ class MeshWalls {
     Manifold<S>& manifold = found.manifold();
     found.add(grain, wall, previous, [&](const auto& add) {
       bool touches = false;
+      const auto add_in_world = [&] {
+        touches = true;
+        manifold.normal = frame.rotation * manifold.normal;
+        for (auto& point : manifold.points) point.position = frame(point.position);
+        add();
+      };
+      buffers.kept.clear();
+      buffers.left_out = 0;
       for_each_part(*buffers.local, [&](std::uint32_t part, const auto& placed) {
-        const auto add_in_world = [&](std::uint32_t face) {
-          if constexpr (CompoundShape<ShapeT>) {
-            const auto dropped =
-                drop_points_at_seams(*buffers.local, part, manifold.points, manifold.normal);
-            if (manifold.points.empty()) return;
-            if (dropped != 0) manifold.contact_class = class_at_plane(S{}, manifold.points.size());
-          }
-          touches = true;
-          manifold.normal = frame.rotation * manifold.normal;
-          for (auto& point : manifold.points) point.position = frame(point.position);
-          manifold.part_a = part;
-          manifold.part_b = face;  // so that each face is reduced on its own
-          add();
-        };
         collide_each(placed, wall.shape, reach.margin, reach.largest, near, buffers.scratch,
-                     manifold, add_in_world);
+                     manifold, [&](std::uint32_t face) {
+                       manifold.part_a = part;
+                       manifold.part_b = face;  // so that each face is reduced on its own
+                       if constexpr (CompoundShape<ShapeT>)
+                         if (!leave_out_seams(part, manifold, buffers)) return;
+                       add_in_world();
+                     });
       });
+      if constexpr (CompoundShape<ShapeT>)
+        for (std::size_t k = 0; k < buffers.left_out; ++k)
+          if (is_alone(buffers.at_seams[k], buffers)) {
+            manifold = buffers.at_seams[k];
+            add_in_world();
+          }
       return touches;
     });
     manifold.part_a = manifold.part_b = 0;
