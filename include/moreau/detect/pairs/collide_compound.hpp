@@ -15,7 +15,7 @@
 #include "moreau/detect/pairs/collide_cylinder_wall.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/detect/polytope/axis.hpp"
-#include "moreau/detect/polytope/detail/feature_axis.hpp"
+#include "moreau/detect/polytope/face_axes.hpp"
 #include "moreau/detect/polytope/make_manifold.hpp"
 #include "moreau/detect/polytope/polytope_pair.hpp"
 #include "moreau/detect/shape_kinds.hpp"
@@ -161,16 +161,14 @@ template <CompoundShape ShapeT>
     if (out.gap > pair.rounding()) return false;
     Axis<S> best;
     best.gap = -T(seam_tolerance) * std::min(pair.a.radius(), pair.b.radius());
-    const auto take = [&](const Axis<S>& axis) {
+    for_each_face_axis(pair, [&](const Axis<S>& axis) {
       if (!(axis.gap > best.gap)) return;
       PairCache<S> features;
       features.kind = axis.kind;
       features.a = axis.a;
       features.b = axis.b;
       if (!is_at_seam(a, part_a, b, part_b, features, axis.normal)) best = axis;
-    };
-    for (std::uint32_t f = 0; f < pair.a.normals().size(); ++f) take(axis_of_face_a(pair, f));
-    for (std::uint32_t f = 0; f < pair.b.normals().size(); ++f) take(axis_of_face_b(pair, f));
+    });
     if (best.kind == AxisKind::none) return false;
     make_manifold(pair, FoundAxis<S>{best}, margin, out);
     return true;
