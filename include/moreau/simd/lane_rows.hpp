@@ -41,7 +41,11 @@ MOREAU_INLINED inline void read_rows(const std::array<const T*, std::size_t{Numb
   } else {
     const auto read = [&](auto first) MOREAU_INLINED_LAMBDA {
       Values square[lanes];
-      for (std::size_t l = 0; l < lanes; ++l) square[l] = Number::load(rows[l] + first);
+      // Written out: g++ does not unroll loops over the lanes.
+      [&]<std::size_t... L>(std::index_sequence<L...>) MOREAU_INLINED_LAMBDA {
+        ((square[L] = Number::load(rows[L] + first)), ...);
+      }
+      (std::make_index_sequence<lanes>());
       Number::transpose(square);
       [&]<std::size_t... K>(std::index_sequence<K...>) MOREAU_INLINED_LAMBDA {
         ((to(std::integral_constant<std::size_t, first + K>()) = square[K]), ...);
@@ -79,8 +83,10 @@ MOREAU_INLINED inline void write_rows(const std::array<T*, std::size_t{Number::l
       }
       (std::make_index_sequence<lanes>());
       Number::transpose(square);
-      for (std::size_t l = 0; l < lanes; ++l)
-        std::memcpy(rows[l] + first, &square[l], sizeof(Values));
+      [&]<std::size_t... L>(std::index_sequence<L...>) MOREAU_INLINED_LAMBDA {
+        (std::memcpy(rows[L] + first, &square[L], sizeof(Values)), ...);
+      }
+      (std::make_index_sequence<lanes>());
     };
     [&]<std::size_t... Square>(std::index_sequence<Square...>) MOREAU_INLINED_LAMBDA {
       (write(std::integral_constant<std::size_t, first_of_square<N, lanes>(Square)>()), ...);
