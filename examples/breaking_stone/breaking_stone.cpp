@@ -46,7 +46,7 @@ void crush(const char* name, const std::string& folder) {
   simulation.set_velocity(plate, -speed * up);
   std::printf("# %s: %zu parts, %zu bonds\n", name, parts.size(), simulation.bonds().size());
   std::printf("# displacement [mm], force [N], bonds, strength left, fragments\n");
-  const int steps = 4000, rows = 20;
+  const int steps = 4000, rows = 100;
   double largest = 0, force = 0;
   for (int k = 1; k <= steps; ++k) {
     simulation.step(step);

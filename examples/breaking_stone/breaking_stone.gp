@@ -1,21 +1,22 @@
 # breaking_stone > breaking_stone.txt; gnuplot breaking_stone.gp -> breaking_stone.png
-set terminal pngcairo size 820,360 font 'sans,11'
+set terminal pngcairo size 900,360 font 'sans,11'
 set output 'breaking_stone.png'
 set multiplot layout 1,2
 set xlabel 'displacement of the plate [mm]'
-set key top right
-set ylabel 'force on the plate [N]'
-set yrange [0:*]
-blue = '#1f5fa8'; red = '#c0392b'
-plot 'breaking_stone.txt' index 0 using 1:2 with linespoints pt 7 ps 0.6 lc rgb blue title 'polygons [N/m]', \
-     '' index 1 using 1:2 with linespoints pt 5 ps 0.6 lc rgb red title 'polyhedra'
-set ylabel 'bonds'
+set ylabel 'force on the plate [N], in the plane [N/m]'
 set y2label 'fragments'
-set y2tics
+set yrange [0:*]
+set y2range [0:4.4]
+set y2tics 1
 set ytics nomirror
-set y2range [0:*]
-plot 'breaking_stone.txt' index 0 using 1:3 with steps lw 2 lc rgb blue title 'bonds, polygons', \
-     '' index 1 using 1:3 with steps lw 2 lc rgb red title 'polyhedra', \
-     '' index 0 using 1:5 axes x1y2 with lines dt 2 lc rgb blue title 'fragments, polygons', \
-     '' index 1 using 1:5 axes x1y2 with lines dt 2 lc rgb red title 'polyhedra'
+set key top left
+blue = '#1f5fa8'; red = '#c0392b'
+names = 'polygons polyhedra'
+ends = '1.5 4'
+do for [k = 0:1] {
+  set title word(names, k + 1)
+  set xrange [0:word(ends, k + 1)]
+  plot 'breaking_stone.txt' index k using 1:2 with lines lw 2 lc rgb blue title 'force', \
+       '' index k using 1:5 axes x1y2 with steps lw 2 dt 2 lc rgb red title 'fragments'
+}
 unset multiplot
