@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,9 +58,11 @@ struct Numerics {
   double tolerance = 1e-3;  ///< of the solver
   double margin = 0.1;      ///< of detection, of the smallest diameter
   int max_sweeps = 500;     ///< of a step
+  int check_interval = 20;  ///< sweeps from one stopping test to the next
 
   std::string text() const {
-    return "step " + std::to_string(step) + " tolerance " + std::to_string(tolerance);
+    return "step " + std::to_string(step) + " tolerance " + std::to_string(tolerance) +
+           (check_interval == 20 ? "" : " interval " + std::to_string(check_interval));
   }
 };
 
@@ -71,6 +72,7 @@ inline World world_of(double size, const Numerics& numerics, int threads) {
   moreau::ColouredOptions options;
   options.tolerance = numerics.tolerance;
   options.max_sweeps = numerics.max_sweeps;
+  options.check_interval = numerics.check_interval;
   moreau::Tolerances tolerances;
   tolerances.margin = numerics.margin;
   tolerances.skin = 0.1;
@@ -82,14 +84,16 @@ inline World world_of(double size, const Numerics& numerics, int threads) {
 
 /// What a run in pieces adds up.
 struct Sums {
-  double steps = 0, unsolved = 0, sweeps = 0, overlap = 0, stepping = 0;
+  double steps = 0, unsolved = 0, sweeps = 0, overlap = 0;
+  double stepping = 0;  ///< CPU time [s]
 
-  void add(const moreau::StepReport& report) {
+  /// @param cpu of the step [s]
+  void add(const moreau::StepReport& report, double cpu) {
     ++steps;
     unsolved += !report.solve.converged;
     sweeps += report.solve.sweeps;
     overlap = std::max(overlap, report.max_overlap);
-    stepping += report.ms_total / 1000;
+    stepping += cpu;
   }
   /// For Result::values: what sums_of() reads.
   void append_to(Numbers& numbers) const {
@@ -104,18 +108,17 @@ struct Sums {
 /// @throws Paused after the state was stored
 inline Sums advance(Run& run, auto& world, const Numerics& numerics, double until, double interval,
                     Numbers& log, const auto& build, const auto& look) {
-  using Clock = std::chrono::steady_clock;
   Numbers sums{0, 0, 0, 0, 0};
   if (run.is_started())
     moreau::reload_snapshot(run.snapshot(), world, log, sums);
   else
     build(world);
   Sums s{sums[0], sums[1], sums[2], sums[3], sums[4]};
-  auto stored = Clock::now();
+  double stored = cpu_seconds();
   const auto store = [&] {
     sums = {s.steps, s.unsolved, s.sweeps, s.overlap, s.stepping};
     moreau::write_snapshot(run.snapshot(), world, log, sums);
-    stored = Clock::now();
+    stored = cpu_seconds();
   };
   using Seen = decltype(look(world));
   constexpr std::size_t width = [] {
@@ -135,7 +138,9 @@ inline Sums advance(Run& run, auto& world, const Numerics& numerics, double unti
   const auto last = static_cast<std::uint64_t>(std::lround(until / numerics.step));
   for (auto k = static_cast<std::uint64_t>(s.steps); k < last;) {
     if (k % every == 0 && log.size() / width <= k / every) note();
-    s.add(world.step(numerics.step));
+    const double before = cpu_seconds();
+    const moreau::StepReport report = world.step(numerics.step);
+    s.add(report, cpu_seconds() - before);
     ++k;
     if (run.must_stop()) {
       store();
@@ -144,7 +149,7 @@ inline Sums advance(Run& run, auto& world, const Numerics& numerics, double unti
                    std::to_string(s.sweeps / s.steps) + " sweeps");
       throw Paused();
     }
-    if (Clock::now() - stored > std::chrono::seconds(120)) store();
+    if (cpu_seconds() - stored > 60) store();
   }
   note();
   return s;

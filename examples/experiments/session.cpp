@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -28,10 +29,6 @@ std::string number(double value) {
   return text.data();
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// A name for a file.
 std::string file_name(std::string key) {
   for (char& c : key)
@@ -40,6 +37,10 @@ std::string file_name(std::string key) {
 }
 
 }  // namespace
+
+double cpu_seconds() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
 struct Session::Store {
   std::map<std::string, Result> done;
@@ -76,14 +77,14 @@ Result Session::once(const std::string& name, const std::function<Numbers(Run&)>
   if (one.must_stop()) throw Paused();
   Result result;
   if (std::ifstream before(clock); before && one.is_started()) before >> result.seconds;
-  const auto start = Clock::now();
+  const double start = cpu_seconds();
   try {
     result.values = run(one);
   } catch (const Paused&) {
-    std::ofstream(clock) << result.seconds + seconds_since(start);
+    std::ofstream(clock) << result.seconds + cpu_seconds() - start;
     throw;
   }
-  result.seconds += seconds_since(start);
+  result.seconds += cpu_seconds() - start;
   nlohmann::json line{{"key", key}, {"values", result.values}, {"seconds", result.seconds}};
   std::ofstream(options_.output / "results.jsonl", std::ios::app) << line.dump() << '\n';
   fs::remove(snapshot);
@@ -129,7 +130,7 @@ void Session::write() const {
     if (experiment != last)
       page += "\n## `" + experiment +
               "`\n\n| figure | published | measured | ± | samples | law | step [s] | tolerance | "
-              "grains | time [s] | agrees |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+              "grains | CPU time [s] | agrees |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
     last = experiment;
     const std::array<std::string, 11> cells{row.figure,
                                             row.published,

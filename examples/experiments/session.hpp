@@ -34,15 +34,18 @@ struct Row {
   double step = 0;       ///< [s]
   double tolerance = 0;  ///< of the solver, relative; 0: none
   std::size_t grains = 0;
-  double seconds = 0;   ///< wall-clock time of all samples [s]
+  double seconds = 0;   ///< CPU time of all samples, of all threads [s]
   std::string verdict;  ///< "yes", "no", or why there is no comparison
 };
 
 /// A stored result.
 struct Result {
   Numbers values;
-  double seconds = 0;  ///< wall-clock time, with all earlier pieces of the run [s]
+  double seconds = 0;  ///< CPU time of all threads, with all earlier pieces of the run [s]
 };
+
+/// CPU time of the program, all threads [s]: what others do on the machine hardly changes it.
+double cpu_seconds();
 
 struct Options {
   std::filesystem::path output = "experiments-output";

@@ -10,7 +10,7 @@ own = "#0B6E99"; other = "#B5482A"; third = "#7A7A7A"; last = "#2E8540"
 
 if (has("drum")) {
   set output folder . "/drum.png"
-  set title "Drum: M1 balls with x < 0 and z < 0. 30,000 balls of M1 and 8,000 of M2, step 0.2 ms, tolerance 1e-3"
+  set title "Drum: M1 balls with x < 0 and z < 0. 30,000 balls of M1 and 8,000 of M2, step 1 ms"
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/drum_zone2_M1.csv" using 1:2 skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \
        data . "/drum_zone2_M1.csv" using 1:3 skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
@@ -43,12 +43,13 @@ if (has("squeeze_10000_SignoriniCoulomb_500")) {
 }
 if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
   set output folder . "/silo.png"
-  set title "Silo: balls above the orifice, d = 4 mm, step 0.2 ms, tolerance 1e-3"
+  set title "Silo: balls below the orifice, M1, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:1.5]
   set xlabel "t [s]"; set ylabel "number of balls"
-  plot data . "/silo_large_M1.csv" using 1:2 skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \
-       data . "/silo_large_M1.csv" using 1:3 skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, 100,000, large orifice", \
+  plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \
+       data . "/silo_large_M1.csv" using 1:(100000 - $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, 100,000, large orifice", \
        for [name in "silo_large_M1_100k silo_small_M1_100k silo_large_M1_30k silo_small_M1_30k"] \
-         (has(name) ? file(name) : "/dev/null") using 1:2 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
+         (has(name) ? file(name) : "/dev/null") using 1:3 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
+  set key top right; set autoscale
 }
 if (has("oblique_glass") && has("oblique_acetate")) {
   set output folder . "/oblique.png"
