@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fifty balls fall into a box and come to rest.
+// Fifty cubes fall into a box and come to rest.
 #include <iostream>
 #include <moreau/measure/check.hpp>
 #include <moreau/measure/rest_test.hpp>
@@ -9,11 +9,11 @@
 #endif
 
 int main() {
-  using Shape = moreau::Ball<
-      double>;  // or moreau::Polyhedron<double>, moreau::Disk<double>, moreau::Polygon<double>
+  // Or moreau::Polygon<double>; moreau::Ball<double> and moreau::Disk<double>, which roll on for a while:
+  using Shape = moreau::Polyhedron<double>;
   using S = moreau::SpaceOf<Shape>;
   using Law = moreau::SignoriniCoulomb<double>;
-  constexpr double size = 0.02, width = 5 * size, h = 5e-4;  // [m], [m], [s]
+  constexpr double size = 0.02, width = 7.5 * size, h = 5e-4;  // [m], [m], [s]
   constexpr int up = S::dim - 1;
 
   moreau::Tolerances tolerances;
@@ -24,8 +24,8 @@ int main() {
     S::Vector x = S::Vector::Zero();
     int place = k;
     for (int axis = 0; axis < S::dim; ++axis, place /= 4)
-      x[axis] = size * (1.1 * (axis < up ? place % 4 : place) + 0.6 + 0.01 * (k % 7));
-    simulation.add_grain(shape, {x}, 2700);
+      x[axis] = size * (1.8 * (axis < up ? place % 4 : place) + 1 + 0.01 * (k % 7));
+    simulation.add_grain(shape, {x, S::exp(S::Angular::Constant(0.2 * k))}, 2700);
   }
   for (int axis = 0; axis < S::dim; ++axis) {
     const S::Vector normal = S::Vector::Unit(axis);
