@@ -10,6 +10,7 @@
 #include <random>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "moreau/law/bonded.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/measure/bond_state.hpp"
+#include "moreau/measure/check.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/sample/bonded_parts.hpp"
@@ -366,10 +368,14 @@ TEST_CASE_TEMPLATE(
   Row<typename X::Shape, Soft> chain(count);
   const double force = 0.01, tip = 2 * radius * double(count - 1), arm = radius / 2;
   chain.load(0, force, 0);
-  for (int k = 0; k < 200; ++k) chain.world.step(0.1);
-  double deflection = 0;
+  StepReport report;
+  for (int k = 0; k < 200; ++k) report = chain.world.step(0.1);
+  double deflection = 0, forces = 0, pushes = 0;
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const double lever = tip - radius * double(2 * k + 1);
+    const double square = force * force * (1 + lever * lever / (arm * arm));
+    forces += square;
+    pushes += square + tension * tension;
     deflection += force / tangential + force * lever * lever / (tangential * arm * arm);
   }
   const double found = chain.world.pose(chain.last()).position[1];
@@ -377,6 +383,16 @@ TEST_CASE_TEMPLATE(
   const double rigidity = tangential * arm * arm * 2 * radius;  // E I
   CHECK(agree(double(found), force * tip * tip * tip / (3 * rigidity), 0.02));
   CHECK(chain.world.bonds().size() == count - 1);
+  CHECK(report.bond_load == doctest::Approx(std::sqrt(forces / pushes)).epsilon(1e-3));
+  const auto says = [&] {
+    const auto sentences = moreau::check(chain.world, report);
+    return std::any_of(sentences.begin(), sentences.end(), [](const auto& sentence) {
+      return sentence.find("bonds bear") != std::string::npos;
+    });
+  };
+  CHECK(!says());
+  report.solve.residual = 0.01 * report.bond_load;
+  CHECK(says());
 }
 
 TEST_CASE_TEMPLATE("bond: a bonded pair turns freely under the tension of its motion", X,

@@ -45,6 +45,9 @@ struct StepReport {
   double fracture = 0;    ///< part of it: by bonds, with the energy that their springs release [J]
   std::size_t bonds = 0;  ///< bonds that are left after the step
   std::size_t broken_bonds = 0;  ///< bonds that broke in the step
+  /// Root mean square of the forces of the bonds, couples included, over that of the pushes against their strength [-]; 0
+  /// without bonds. solve.residual is relative to the strength: the forces are known to about solve.residual over this number.
+  double bond_load = 0;
   /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
   /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic
   /// energies are of velocities relative to the cell (world/cell_control.hpp).

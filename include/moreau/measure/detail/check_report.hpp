@@ -139,6 +139,15 @@ struct OverlapScene {
         "solver's "
         "name, ColouredGaussSeidel by default",
         {double(report.solve.sweeps), report.solve.residual, 5.0 * report.solve.sweeps});
+  const double load = report.bond_load, known = 1e-3;
+  if (load > 0 && report.solve.residual > known * load)
+    found.say(
+        "bonds bear % of their strength on average, and the residual % is relative to the "
+        "strength: "
+        "their forces are known only to about % of themselves, and structures of many bonds bend "
+        "and break at wrong loads. Use a smaller tolerance and more sweeps: "
+        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = %, .max_sweeps = 20000}))",
+        {load, report.solve.residual, report.solve.residual / load, round_down(1e-4 * load)});
   const double compliance = report.relative_compliance, residual = report.solve.residual;
   if (residual > 0.1 * compliance && compliance > 0)
     found.say(

@@ -37,6 +37,7 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/bond.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/step_report.hpp"
@@ -217,6 +218,22 @@ class BondList {
   /// Most solutions of a step in which bonds yield.
   static constexpr int max_solutions = 30;
 
+  /// StepReport::bond_load.
+  /// @param impulses p of every contact [N s]
+  /// @param pulls    impulses of the attraction [N s]
+  /// @param shared   bodies that other processes share; null: none
+  double load(std::span<const Row> impulses, std::span<const Scalar> pulls,
+              SharedBodies* shared) const {
+    double sums[] = {0, 0};  // of the squares of what acts on the bodies, and of p
+    for_each([&](std::size_t, std::size_t c) {
+      Row bears = impulses[c];
+      bears[0] -= pulls[c];
+      sums[0] += double(bears.squaredNorm());
+      sums[1] += double(impulses[c].squaredNorm());
+    });
+    if (shared) shared->sum(sums);
+    return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
+  }
   /// Finds out how the bonds yield, which end_step() lets them do, and which of them break.
   /// @param op       with the velocities of the impulses
   /// @param impulses p of every contact [N s]

@@ -164,7 +164,7 @@ class ContactSprings {
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
       Row u = problem.delassus.velocity(c) - stretch - relaxation_[c];
       if (!std::isfinite(u[0])) continue;
-      if (r[0] > 0) {
+      if (r[0] > 0 || bonded) {
         const Scalar own = compliance_[c][0];
         stiffest = std::min(stiffest, double(own / (problem.delassus.normal(c) - own)));
       }

@@ -278,8 +278,10 @@ class ImpulseDynamics {
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
-    if constexpr (bonding)
+    if constexpr (bonding) {
+      report.bond_load = bonds_.load(impulses, attraction_.pulls(), shared_.get());
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
+    }
     laws_.choose_variants(problem_, context.materials, context.contacts,
                           std::max(solver_tolerance(), report.solve.residual), shared_.get());
     attraction_.take_from(impulses);
