@@ -216,6 +216,9 @@ class IslandSolver {
       op.compliance(std::size_t());
     };
     if (springs || !newton_.slides_on_faces()) return false;
+    // Grains that collide are left to the sweeps.
+    if (!one.is_new && one.defect > largest_defect) return false;
+    if (one.is_new && islands_.bodies(one.island) > 10) return false;
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
     const double error =
