@@ -66,7 +66,7 @@ class IslandSolver {
       if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
-        if (!attempt_evenly(one, impulses, 0, one.defect)) attempt(one, impulses);
+        if (!attempt_evenly(problem, one, impulses, 0, one.defect)) attempt(one, impulses);
       }
       small_.push_back(one);
     }
@@ -96,7 +96,7 @@ class IslandSolver {
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
       const double defect = newton_.start(impulses);
-      if (!one.failed && attempt_evenly(one, impulses, sweeps, defect)) continue;
+      if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect)) continue;
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && swept) continue;
       // Sweeps give the load of a pair to the point that they visit first.
@@ -181,6 +181,9 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
 
+  /// Bodies of an island whose pressures are made even, at most: of one that is new, of one that collides.
+  static constexpr std::size_t most_new = 10, most_colliding = 3;
+
   bool is_solved(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
   /// average.
@@ -210,15 +213,17 @@ class IslandSolver {
   }
   /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
   /// @returns whether it succeeds; if not, the impulses are those of start()
-  bool attempt_evenly(Small& one, Impulses impulses, int sweeps, double defect) {
+  bool attempt_evenly(const Problem& problem, Small& one, Impulses impulses, int sweeps,
+                      double defect) {
     // With springs the pressure is unique.
     constexpr bool springs = requires(const Operator op) {
       op.compliance(std::size_t());
     };
-    if (springs || !newton_.slides_on_faces()) return false;
-    // Grains that collide are left to the sweeps.
-    if (!one.is_new && one.defect > largest_defect) return false;
-    if (one.is_new && islands_.bodies(one.island) > 10) return false;
+    if (springs || has_static_friction(problem, one) || !newton_.slides_on_faces()) return false;
+    // Of grains that collide only few are worth it.
+    const std::size_t bodies = islands_.bodies(one.island);
+    if (bodies > (one.is_new ? most_new : one.defect > largest_defect ? most_colliding : bodies))
+      return false;
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
     const double error =
@@ -231,6 +236,19 @@ class IslandSolver {
     keep(one, impulses, error, defect);
     made_even_ = true;
     return true;
+  }
+  /// Whether a contact of an island has a law with static friction: its variants stand side by side in the table of laws, and
+  /// their friction differs. Whether a point slides follows from its impulse, which then must lie on the cone of its own
+  /// pressure more closely than even pressures do.
+  bool has_static_friction(const Problem& problem, const Small& one) const {
+    constexpr std::size_t variants = variants_of<Law, typename Operator::Space>();
+    if constexpr (variants > 1)
+      for (const std::uint32_t c : islands_.contacts(one.island)) {
+        const std::size_t first = problem.law_of[c] / variants * variants;
+        for (std::size_t k = first; k < std::min(first + variants, problem.laws.size()); ++k)
+          if (problem.laws[k].friction() != problem.law(c).friction()) return true;
+      }
+    return false;
   }
   /// Before the sweeps.
   void attempt(Small& one, Impulses impulses) {
