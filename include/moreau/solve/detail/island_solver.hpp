@@ -174,15 +174,14 @@ class IslandSolver {
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
   static constexpr double even_enough = 1e-6;
+  /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
+  static constexpr std::size_t most_new = 10, most_colliding = 3;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
   /// Newton step of islands that are attempted in every step, as in columns, arches and low walls; a Newton step at
   /// most; all Newton steps before the sweeps at most.
   static constexpr double unit = Operator::Space::angular_dim, other_visits = 8 * unit,
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
-
-  /// Bodies of an island whose pressures are made even, at most: of one that is new, of one that collides.
-  static constexpr std::size_t most_new = 10, most_colliding = 3;
 
   bool is_solved(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
@@ -220,10 +219,9 @@ class IslandSolver {
       op.compliance(std::size_t());
     };
     if (springs || has_static_friction(problem, one) || !newton_.slides_on_faces()) return false;
-    // Of grains that collide only few are worth it.
     const std::size_t bodies = islands_.bodies(one.island);
-    if (bodies > (one.is_new ? most_new : one.defect > largest_defect ? most_colliding : bodies))
-      return false;
+    if (one.is_new && bodies > most_new) return false;
+    if (!one.is_new && one.defect > largest_defect && bodies > most_colliding) return false;
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
     const double error =

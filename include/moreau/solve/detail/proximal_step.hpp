@@ -16,6 +16,7 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/solve/detail/block_factorization.hpp"
 #include "moreau/solve/detail/island_points.hpp"
+#include "moreau/solve/detail/sliding_face.hpp"
 
 namespace moreau::detail {
 
@@ -113,7 +114,7 @@ class ProximalStep {
     stopped_ = motion;
     std::size_t count = 0;
     for (std::size_t first = 0; first < centre_.size();) {
-      const Face face = find_face(first);
+      const SlidingFace face = find_face(first);
       if (face.slides()) {
         count += face.points;
         stopped_ = std::min(stopped_, face.stopped);
@@ -133,7 +134,7 @@ class ProximalStep {
     make_common();
     has_limits_ = true;
     for (std::size_t first = 0, last; first < centre_.size(); first = last) {
-      const Face face = find_face(first);
+      const SlidingFace face = find_face(first);
       last = face.last;
       for (std::size_t k = first; k < last; ++k) {
         if (face.points > 1) centre_[k][0] = is_closed(k) ? face.sum / double(face.points) : 0;
@@ -243,45 +244,15 @@ class ProximalStep {
 
  private:
   using Vector = typename Points::Vector;
-  /// The points of one face.
-  struct Face {
-    std::size_t last = 0;    // one beyond its last contact
-    std::size_t points = 0;  // that are closed
-    double sum = 0;          // of the pressure [N s]
-    double slip = 0;         // of the fastest point [m/s]
-    double stopped = 0;      // velocity that friction can change in a step, about [m/s]
-    bool slides() const {
-      constexpr double rest = 1e-3;
-      return points > 1 && stopped > 0 && slip > rest * stopped;
-    }
-  };
-  bool is_closed(std::size_t k) const { return centre_[k][0] > 0 || slip_[k][0] <= closed_; }
-  MOREAU_INLINED Face find_face(std::size_t first) const {
-    Face face;
-    const auto points = points_.points();
-    double mobility = 0;
-    for (std::size_t k = first; k < points.size() && points[k].face == points[first].face; ++k) {
-      const auto& point = points[k];
-      face.last = k + 1;
-      if (!is_closed(k)) continue;
-      ++face.points;
-      face.sum += centre_[k][0];
-      face.slip = std::max(face.slip, slip_of(slip_[k]));
-      mobility = std::max(
-          mobility, point.friction * (point.a.row(1).squaredNorm() + point.b.row(1).squaredNorm()));
-    }
-    face.stopped = mobility * face.sum;
-    return face;
+  bool is_closed(std::size_t k) const { return detail::is_closed(centre_[k], slip_[k], closed_); }
+  MOREAU_INLINED SlidingFace find_face(std::size_t first) const {
+    return detail::find_face<S>(points_.points(), std::span<const Vector>(centre_),
+                                std::span<const Vector>(slip_), closed_, first);
   }
   using Coordinates = typename Points::Coordinates;
   static constexpr std::size_t polish_bodies = 10;
 
-  /// The speed along the tangents of a contact.
-  static double slip_of(const Vector& u) {
-    double square = 0;
-    for (int k = 1; k < S::dim; ++k) square += u[k] * u[k];
-    return std::sqrt(square);
-  }
+  static double slip_of(const Vector& u) { return detail::slip_of<S>(u); }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
