@@ -247,7 +247,7 @@ TEST_CASE_TEMPLATE("gyroscopic term does no work and is w x I w", S, MOREAU_SPAC
   }
 }
 
-TEST_CASE_TEMPLATE("gyroscopic_jacobian is the derivative of I(q) w along a rotation", S,
+TEST_CASE_TEMPLATE("angular_momentum_jacobian is the derivative of I(q) w along a rotation", S,
                    MOREAU_SPACES) {
   Draw<S> draw;
   for (int i = 0; i < 50; ++i) {
@@ -258,10 +258,10 @@ TEST_CASE_TEMPLATE("gyroscopic_jacobian is the derivative of I(q) w along a rota
       const auto ad = S::adjoint(S::exp(angle * dw));
       return times(times(ad, inertia), times(transposed(ad), w));
     });
-    const typename S::Angular along_dw = times(S::gyroscopic_jacobian(inertia, w), dw);
+    const typename S::Angular along_dw = times(S::angular_momentum_jacobian(inertia, w), dw);
     CHECK(distance(difference, along_dw) <= 100 * difference_error<S>);
     // For a rotation along w, the derivative equals the gyroscopic term d(I w)/dt at fixed w.
-    const typename S::Angular along_w = times(S::gyroscopic_jacobian(inertia, w), w);
+    const typename S::Angular along_w = times(S::angular_momentum_jacobian(inertia, w), w);
     CHECK(distance(along_w, S::gyroscopic(inertia, w)) <= 32 * epsilon<S>);
   }
 }

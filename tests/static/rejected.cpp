@@ -499,6 +499,24 @@ const moreau::Simulation<moreau::Ball<>, Springy> simulation(0.01,
                                                                                         Springy()));
 #endif  // share_of_another_scalar
 
+#ifdef memory_of_another_type
+// The memory of a law in another type: the law would do without it.
+// expect: Law has variant\(\), but is no StatefulLaw
+// and no other error
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Aged : moreau::SignoriniCoulomb<> {
+  static constexpr std::size_t variants = 2;
+  Aged variant(std::size_t) const { return *this; }
+  EITHER(int, std::size_t) variant_after(std::size_t, const moreau::Space<3>::Vector&) const {
+    return 1;
+  }
+};
+const moreau::Simulation<moreau::Ball<>, Aged> simulation(0.01, moreau::Materials<Aged>(1, Aged()));
+#endif  // memory_of_another_type
+
 #ifdef forces_under_moreau_jean
 // A regularized law with an integrator of impulses.
 // expect: a regularized law gives forces, which an integrator of impulses such as MoreauJean

@@ -98,7 +98,7 @@ class Source {
     if (simulation.grain_count() >= options_.grain_limit) due_ = std::min(due_, 1.0);
     if (due_ < 1 || simulation.grain_count() >= options_.grain_limit) return now;
     require_room(simulation);
-    find_bodies(simulation);
+    find_obstacles(simulation);
     while (due_ >= 1 && simulation.grain_count() < options_.grain_limit && add(simulation)) {
       due_ -= 1;
       const auto mass = double(simulation.bodies().grain_mass[added_.back().index()]);
@@ -120,7 +120,7 @@ class Source {
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(random_, due_, total_); }
 
-  /// A grain in the way: in its bounding box, and in the ball of its circumradius.
+  /// A grain that may be in the way, bounded by its box and by the ball of its circumradius.
   struct Obstacle {
     Aabb<S> box;
     Vector center;
@@ -133,8 +133,8 @@ class Source {
       require(2 * circumradius(simulation.shape(shape)) <= length.minCoeff(), "Source::apply",
               "shape", shape, "must have a circumdiameter of at most the length of the region");
   }
-  /// Collects the grains that a new grain could overlap. Across periodic boundaries these are all.
-  void find_bodies(const auto& simulation) {
+  /// Collects the grains that a new grain could overlap: in a periodic cell all grains.
+  void find_obstacles(const auto& simulation) {
     obstacles_.clear();
     for (const BodyId grain : simulation.grains()) {
       const auto& shape = simulation.shape(grain);

@@ -106,7 +106,7 @@ struct Contacts : DetectedContacts<S> {
   /// One per point. Within a step, from the warm start to the end of the solve, they are rows of the operator: in its
   /// frames, couple / R in place of the couple (BodyDelassus::to_rows()).
   std::vector<Impulse> impulses;
-  /// One per point: the memory of the law, after the step the variant of the next step, see StatefulLaw.
+  /// One per point: index of the law's variant, see StatefulLaw; the step ends by choosing that of the next step.
   std::vector<std::uint32_t> variants;
 
   using DetectedContacts<S>::size;

@@ -50,7 +50,7 @@ typename S::Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i,
 /// @param points all of one pair
 /// @param masses out: one per point
 template <class S>
-void share_mass(const Bodies<S>& bodies, std::span<const Contact<S>> points,
+void find_effective_masses(const Bodies<S>& bodies, std::span<const Contact<S>> points,
                 std::span<typename S::Scalar> masses) {
   using Scalar = typename S::Scalar;
   using Twist = typename S::Twist;

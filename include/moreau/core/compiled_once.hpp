@@ -28,9 +28,9 @@
 #define MOREAU_COLD
 #endif
 
-/// Before a function that is called from one place, or is about as small as a call: it is inlined. In code that it takes
-/// for seldom run g++ does not do so by itself, and has one more function to compile: templates and members of a
-/// class may be called from other files as well.
+/// Before a function that is called from one place, or is about as small as a call: it is inlined. g++ does not
+/// inline it by itself in code that it believes is cold, and has one more function to compile: templates and members
+/// of a class may be called from other files as well.
 #if defined(__GNUC__) || defined(__clang__)
 #define MOREAU_INLINED [[gnu::always_inline]]
 /// The same after the parameters of a lambda.

@@ -8,8 +8,8 @@
 //     torque of a force f at r                   lever(r)^T f
 //     Delassus block                             F^T (1/m + lever(r) I^-1 lever(r)^T) F
 //
-// Mechanics that is written with lever(r) is the same code in both dimensions. Only this header and
-// the geometry of single shapes depend on the dimension.
+// Mechanics that is written with lever(r) is the same code in both dimensions. What depends on the dimension is here, in
+// the geometry of shapes, meshes and pairs (shape/, mesh/, detect/), and in the few headers that .ci/check_headers names.
 #pragma once
 
 #include <Eigen/Core>
@@ -108,7 +108,7 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
   static Angular gyroscopic(const Inertia&, const AngularArgument&) { return Angular::Zero(); }
   /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. In the
   /// plane it is zero.
-  static Inertia gyroscopic_jacobian(const Inertia&, const AngularArgument&) {
+  static Inertia angular_momentum_jacobian(const Inertia&, const AngularArgument&) {
     return Inertia::Zero();
   }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangent t.
@@ -166,7 +166,7 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   static Angular gyroscopic(const Inertia& I, const AngularArgument& w) { return w.cross(I * w); }
   /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. For a
   /// small rotation dr, d(I(q) w) = (lever(I w) - I lever(w)) dr, where lever(a) b = b x a.
-  static Inertia gyroscopic_jacobian(const Inertia& I, const AngularArgument& w) {
+  static Inertia angular_momentum_jacobian(const Inertia& I, const AngularArgument& w) {
     return lever(I * w) - I * lever(w);
   }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangents t and s.

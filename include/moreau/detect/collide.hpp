@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The narrow phase: three queries for any pair of shapes, in either order.
+// The narrow phase: three queries for pairs of shapes, in either order; walls that surround a grain have the third only.
 //
 //   bool           overlap(a, b[, cache])                    whether the shapes have a common point
 //   SignedDistance distance(a, b[, cache])                   signed gap, normal, nearest points
@@ -17,6 +17,7 @@
 //   segments                   pairs/collide_segments.hpp, pairs/collide_segment_polytope.hpp
 //   half-spaces                pairs/collide_half_space.hpp
 //   inside of a cylinder       pairs/collide_cylinder_wall.hpp, function collide_each()
+//   mesh walls                 pairs/collide_mesh_wall.hpp, function collide_each()
 //   OneOf                      pairs/collide_one_of.hpp, which collides the shapes that they hold
 //   Compound                   pairs/collide_compound.hpp, function collide_parts(): its parts
 //   any convex shape           convex/collide_convex.hpp

@@ -25,7 +25,7 @@ enum class ContactClass : std::uint8_t {
   vertex_face,    ///< simple: one point
   edge_edge,      ///< in space simple: one point; in the plane double: two points
   edge_face,      ///< double: two points
-  face_face,      ///< triple: three points
+  face_face,      ///< triple: three points and more; with ContactPoints::few at most D
 };
 
 /// The name of a class, as its enumerator is written.

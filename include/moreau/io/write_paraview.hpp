@@ -123,7 +123,7 @@ void write_cell(const std::filesystem::path& path, const Simulation& simulation)
 /// | out/run_0010_bonds.vtp     | under a law with bonds: lines with `strength_left`, `dissipated` and `elastic` [J], `a`, `b` |
 /// | out/run_0010_cell.vtp      | with a cell of set_cell(): its edges with `stress` [Pa], `rate` [1/s], `deformation` |
 ///
-/// The array `id` of the grains is their position in grains(). It changes when a grain with a lower id
+/// The array `id` of the grains is their position in grains(), not a BodyId. It changes when a grain with a lower id
 /// is removed.
 ///
 /// ParaView shows the files run_0000.vtm, run_0001.vtm, ... as one series. PvdSeries::add() adds

@@ -274,10 +274,12 @@ concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<
 template <class L, class S>
 concept MapsLanes = LaneLaw<L, S> && CoulombLaw<L, S> &&
     requires(const L law, const typename LaneBlock<S>::Vector vector) {
-  L::template natural_map_lanes<S>(
-      vector, vector,
-      std::array<typename LaneBlock<S>::Values,
-                 std::tuple_size_v<decltype(law.lane_parameters())>>{});
+  {
+    L::template natural_map_lanes<S>(
+        vector, vector,
+        std::array<typename LaneBlock<S>::Values,
+                   std::tuple_size_v<decltype(law.lane_parameters())>>{})
+    } -> std::same_as<typename LaneBlock<S>::Vector>;
 };
 
 }  // namespace moreau

@@ -67,7 +67,7 @@ template <class S>
 }  // namespace detail
 
 /// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. The derivative
-/// of I(q) w with respect to a rotation is S::gyroscopic_jacobian. The body i must rotate
+/// of I(q) w with respect to a rotation is S::angular_momentum_jacobian. The body i must rotate
 /// (Bodies::rotates()); q is its rotation in bodies.pose. L is met to rounding for rotations h |w| up to
 /// 1.5, also of bodies five times as long as wide; for larger ones w may not meet L, but the error is
 /// not above that of `start`.
@@ -88,7 +88,7 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
     error -= momentum;
     // After some steps the error may stay at a few rounding errors.
     if (error.norm() <= (iteration < 6 ? 2 : 16) * rounding) return w;
-    typename S::Inertia jacobian = S::gyroscopic_jacobian(inertia, w);
+    typename S::Inertia jacobian = S::angular_momentum_jacobian(inertia, w);
     for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
       jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
     const typename S::Inertia inverse = inverse_of(jacobian);

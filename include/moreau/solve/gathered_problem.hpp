@@ -41,6 +41,29 @@ void add_block(Eigen::Index row, Eigen::Index column, const Block& product,
         entries.emplace_back(int(rows * row) + i, int(rows * column) + j, block(i, j));
 }
 
+/// A contact of a body, in double.
+template <class S>
+struct TouchedBody {
+  Eigen::Index contact;
+  /// The impulses along the axes of the contact as forces and torques on the body, and the velocities that they cause.
+  Eigen::Matrix<double, S::dofs, S::dim> forces, velocities;
+};
+
+/// Adds the blocks that the contacts of each body have in common, J M^-1 J^T. The diagonal is symmetrized.
+template <class S>
+void add_products(std::span<const std::vector<TouchedBody<S>>> touches,
+                  std::vector<Eigen::Triplet<double>>& entries) {
+  for (const std::vector<TouchedBody<S>>& body : touches)
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (std::size_t k = 0; k <= i; ++k) {
+        Eigen::Matrix<double, S::dim, S::dim> block =
+            body[i].forces.transpose() * body[k].velocities;
+        if (i == k) block = (block + block.transpose()).eval() / 2;
+        add_block<S::dim>(body[i].contact, body[k].contact, block, entries);
+        if (i != k) add_block<S::dim>(body[k].contact, body[i].contact, block.transpose(), entries);
+      }
+}
+
 }  // namespace detail
 
 /// Forms the matrix W = J M^-1 J^T. Contacts whose free velocity is infinite, which cannot act in the step, are left out.
@@ -65,13 +88,7 @@ auto gather_problem(const ContactProblem<Operator, Law>& step,
   FrictionProblem<S>& problem = gathered.problem;
   problem.free_velocity.resize(rows * count);
   problem.friction.resize(count);
-  using Exact = Space<S::dim, double>;
-  struct Touch {
-    Eigen::Index contact;
-    // In double: the impulses along the axes of the contact as forces and torques on the body, and the
-    // velocities that they cause.
-    Eigen::Matrix<double, S::dofs, rows> forces, velocities;
-  };
+  using Touch = detail::TouchedBody<S>;
   std::vector<std::vector<Touch>> touches(op.body_count());
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::size_t c = contacts[std::size_t(k)];
@@ -86,7 +103,7 @@ auto gather_problem(const ContactProblem<Operator, Law>& step,
       if (!mass.moves()) return;
       Touch one{k, {}, {}};
       one.forces = detail::jacobian_rows<S>(frame, lever, sign).transpose();
-      one.velocities = detail::dense<Exact>(mass) * one.forces;
+      one.velocities = detail::dense<S>(mass) * one.forces;
       touches[body].push_back(one);
     };
     touch(a, op.lever_a(c), -1);
@@ -98,15 +115,7 @@ auto gather_problem(const ContactProblem<Operator, Law>& step,
       for (int d = 0; d < rows; ++d)
         entries.emplace_back(int(rows * k) + d, int(rows * k) + d,
                              double(op.compliance(contacts[std::size_t(k)])[d]));
-  for (const std::vector<Touch>& body : touches)
-    for (std::size_t i = 0; i < body.size(); ++i)
-      for (std::size_t k = 0; k <= i; ++k) {
-        Eigen::Matrix<double, rows, rows> block = body[i].forces.transpose() * body[k].velocities;
-        if (i == k) block = (block + block.transpose()).eval() / 2;
-        detail::add_block<rows>(body[i].contact, body[k].contact, block, entries);
-        if (i != k)
-          detail::add_block<rows>(body[k].contact, body[i].contact, block.transpose(), entries);
-      }
+  detail::add_products<S>(touches, entries);
   problem.delassus.resize(rows * count, rows * count);
   problem.delassus.setFromTriplets(entries.begin(), entries.end());
   return gathered;

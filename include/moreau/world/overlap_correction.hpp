@@ -11,8 +11,8 @@
 // those of a direct method: d is a motion under frictionless impulses with the free normal velocity -rate depth
 // (solve/island_newton.hpp).
 //
-// No body is moved by more than max_shift in a step: the gaps are linear in d, and contacts beyond the margin
-// are not known, only for small d. The report has the work of the external forces along the shift.
+// No body is moved by more than max_shift in a step: the gaps are linear in d for small d only, and contacts beyond the
+// margin are unknown. The report has the work of the external forces along the shift.
 #pragma once
 
 #include <algorithm>

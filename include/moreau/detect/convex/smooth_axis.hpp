@@ -19,8 +19,8 @@
 //   - if s(m) < 0, the depth is at most -s(m). Let f be the point of C with the largest m . f. The
 //     two simplices over the facet (w_k), with the tips w(m) and f, are a part of C. If the origin
 //     lies inside of them, the depth is at least its distance from the nearest of their faces.
-// The result is certified if the bounds agree: of a gap within the tolerance, of a depth within the
-// tolerance or 1/200 of the depth. An axis with a smaller depth, if there is one, then makes an angle
+// The result is certified if the bounds agree: those of a gap within the tolerance, those of a depth within the larger of
+// the tolerance and 1/200 of the depth. An axis with a smaller depth, if there is one, then makes an angle
 // of the order of theta with m, where Newton's method has found the maximum of s. The hull of so few
 // points is enough because w(m) is the point of C nearest to the origin to second order. A pair
 // without a certified result (flat faces, edges, a large depth) is left to GJK and EPA.

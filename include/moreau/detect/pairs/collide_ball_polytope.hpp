@@ -128,7 +128,7 @@ requires Polytope<ShapeT> SignedDistance<SpaceOf<ShapeT>> distance(
 
 /// Contact of a ball and a polytope at one point.
 /// @param margin  largest gap of a pair in contact [m], >= 0
-/// @param out     filled if the pair is in contact, unchanged otherwise
+/// @param out     filled if the pair is in contact, without meaning otherwise
 /// @returns whether the signed gap is at most the margin
 template <class ShapeT>
 requires Polytope<ShapeT>

@@ -87,6 +87,15 @@ class Redistribution {
   void cut_if_uneven(double imbalance);
   /// Sends grains and contacts to the new owners.
   void migrate(Grains& grains, ContactsOnTheWay& contacts);
+  /// A body of one of the lists, and the process that owns it.
+  struct Entry {
+    BodyId id;
+    Grains* list;
+    std::size_t number;  ///< in the list
+    int owner;
+  };
+  std::vector<Entry> entries_by_id(Grains& grains, std::vector<Grains>& ghosts,
+                                   Grains& walls) const;
   void assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
                 const std::vector<std::vector<BodyId>>& lent);
   void take_contacts(ContactsOnTheWay& contacts);
@@ -270,14 +279,8 @@ void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) 
 }
 
 template <class World>
-void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
-                                     const std::vector<std::vector<BodyId>>& lent) {
-  struct Entry {
-    BodyId id;
-    Grains* list;
-    std::size_t number;
-    int owner;
-  };
+auto Redistribution<World>::entries_by_id(Grains& grains, std::vector<Grains>& ghosts,
+                                          Grains& walls) const -> std::vector<Entry> {
   std::vector<Entry> entries;
   const auto add = [&](Grains& list, int owner) {
     for (std::size_t k = 0; k < list.size(); ++k)
@@ -288,7 +291,12 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
   add(walls, RankTopology::everywhere);
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.id < b.id; });
+  return entries;
+}
 
+template <class World>
+void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
+                                     const std::vector<std::vector<BodyId>>& lent) {
   Parts parts(world_);
   Bodies<S> bodies;
   ids_.clear();
@@ -301,7 +309,7 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
   parts.shapes().clear();
   shape_ids_.clear();
   std::map<std::uint32_t, ShapeId> here;  // shapes by id
-  for (const Entry& entry : entries) {
+  for (const Entry& entry : entries_by_id(grains, ghosts, walls)) {
     const auto i = static_cast<std::uint32_t>(bodies.size());
     append(bodies, entry.list->bodies, entry.number);
     bodies.id.back() = BodyId(i);

@@ -96,6 +96,38 @@ struct OverlapScene {
       numbers);
 }
 
+/// What the solver did not reach.
+[[gnu::cold]] inline void check_solve(Findings& found, const SolveReport& solve) {
+  if (solve.unsolved_islands > 0)
+    found.say(
+        "% of % small structures not solved: velocities of their bodies have an estimated error of "
+        "% of the "
+        "largest velocity that the contacts gave in the step (g h at rest). If this lasts, a "
+        "structure that "
+        "should stand can move. Use a shorter step",
+        {double(solve.unsolved_islands), double(solve.islands), solve.velocity_error});
+  const bool has_approach = solve.relative_approach > SolveReport::max_relative_approach;
+  if (solve.capped && has_approach)
+    found.say(
+        "after % sweeps contacts still approach with % of the velocity that they have without "
+        "impulses "
+        "(relative_approach). A body that driven walls squeeze, or a wedge that friction jams, has "
+        "no "
+        "solution: change what drives it. A load that travels through a long chain of contacts "
+        "needs "
+        "more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your solver's name, "
+        "ColouredGaussSeidel by default",
+        {double(solve.sweeps), solve.relative_approach, 5.0 * solve.sweeps});
+  else if (solve.capped && solve.unsolved_islands == 0)
+    found.say(
+        "the solver stopped after % sweeps at a residual of %, above its tolerance. Use a shorter "
+        "step, "
+        "or give it more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your "
+        "solver's "
+        "name, ColouredGaussSeidel by default",
+        {double(solve.sweeps), solve.residual, 5.0 * solve.sweeps});
+}
+
 [[gnu::cold]] inline void check_report(Findings& found, const StepReport& report, double size,
                                        const OverlapScene& scene) {
   if (report.approach > 1)
@@ -110,35 +142,7 @@ struct OverlapScene {
         "overlaps so deep that the correction of % contacts was limited to "
         "OverlapCorrectionOptions::max_shift; the bodies stay inside one another for many steps",
         {double(report.correction.limited)});
-  if (report.solve.unsolved_islands > 0)
-    found.say(
-        "% of % small structures not solved: velocities of their bodies have an estimated error of "
-        "% of the "
-        "largest velocity that the contacts gave in the step (g h at rest). If this lasts, a "
-        "structure that "
-        "should stand can move. Use a shorter step",
-        {double(report.solve.unsolved_islands), double(report.solve.islands),
-         report.solve.velocity_error});
-  const bool has_approach = report.solve.relative_approach > SolveReport::max_relative_approach;
-  if (report.solve.capped && has_approach)
-    found.say(
-        "after % sweeps contacts still approach with % of the velocity that they have without "
-        "impulses "
-        "(relative_approach). A body that driven walls squeeze, or a wedge that friction jams, has "
-        "no "
-        "solution: change what drives it. A load that travels through a long chain of contacts "
-        "needs "
-        "more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your solver's name, "
-        "ColouredGaussSeidel by default",
-        {double(report.solve.sweeps), report.solve.relative_approach, 5.0 * report.solve.sweeps});
-  else if (report.solve.capped && report.solve.unsolved_islands == 0)
-    found.say(
-        "the solver stopped after % sweeps at a residual of %, above its tolerance. Use a shorter "
-        "step, "
-        "or give it more sweeps: simulation.set_solver(Solver({.max_sweeps = %})) with your "
-        "solver's "
-        "name, ColouredGaussSeidel by default",
-        {double(report.solve.sweeps), report.solve.residual, 5.0 * report.solve.sweeps});
+  check_solve(found, report.solve);
   const double load = report.bond_load, known = 1e-3;
   if (load > 0 && report.solve.residual > known * load)
     found.say(

@@ -11,8 +11,8 @@
 
 namespace moreau::detail {
 
-/// Colours pairs of bodies in their order, each with the first colour that is free: no two pairs of one colour share a
-/// body that can move, unless one of them lies inside a block and the other does not. One pass over the pairs of one
+/// Colours pairs of bodies in their order, each with the first colour that is unused at both bodies: no two pairs of one colour share a
+/// body that can move, unless one of them lies inside a chunk and the other does not. One pass over the pairs of one
 /// process; the colours depend on their order.
 class FirstFitColouring {
  public:

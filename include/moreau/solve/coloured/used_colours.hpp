@@ -21,9 +21,9 @@ class UsedColours {
     bool counts;        ///< whether its colours matter
   };
 
-  /// Makes all colours free.
+  /// Makes all colours unused.
   void start(std::size_t places) { bits_.assign(Words * places, 0); }
-  /// Takes the first colour that is free at both places.
+  /// Takes the first colour that is unused at both places.
   /// @returns its number; `colours` if there is none
   std::uint32_t take_first(const std::array<Place, 2>& places) {
     for (std::size_t word = 0; word < Words; ++word) {

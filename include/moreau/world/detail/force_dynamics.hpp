@@ -66,7 +66,7 @@ class ForceDynamics {
     masses_.resize(contacts.size());
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       last = end_of_pair(contacts, first);
-      share_mass<S>(bodies, std::span(contacts.points).subspan(first, last - first),
+      find_effective_masses<S>(bodies, std::span(contacts.points).subspan(first, last - first),
                     std::span(masses_).subspan(first, last - first));
     }
     for (std::size_t c = 0; c < contacts.size(); ++c) {

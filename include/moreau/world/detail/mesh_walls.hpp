@@ -36,7 +36,7 @@ struct MeshBuffers {
   std::size_t left_out = 0;
 };
 
-/// A grain, and the same in the world.
+/// A grain: its shape, and the shape placed in the world.
 template <class ShapeT>
 struct GrainInWorld {
   BodyId body;
@@ -87,8 +87,7 @@ class MeshWalls {
   }
   /// How far from a grain a mesh counts.
   struct Reach {
-    Scalar
-        margin;  ///< of the facets that decide which of them holds a grain that has passed below some [m]
+    Scalar margin;   ///< facets up to this gap decide which of them holds the grain [m]
     Scalar largest;  ///< gap of a contact point, <= margin [m]
   };
   /// Finds the contacts of a grain.
@@ -169,7 +168,8 @@ class MeshWalls {
     for (const auto& point : manifold.points) buffers.kept.push_back(point.position);
     return is_kept();
   }
-  /// Whether a contact at a seam has no other one beside it: of a tip in a concave corner in which the seam ends.
+  /// Whether no contact point that was kept lies near those of a contact at a seam. This occurs at a tip in a concave corner
+  /// where the seam ends.
   static bool is_alone(const Manifold<S>& manifold, const MeshBuffers<ShapeT>& buffers) {
     const Scalar beside = Scalar(seam_tolerance) * buffers.local->part(manifold.part_a).radius();
     return std::none_of(buffers.kept.begin(), buffers.kept.end(), [&](const Vector& x) {

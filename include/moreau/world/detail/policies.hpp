@@ -25,7 +25,18 @@ struct NamesOf {
   static constexpr bool bridges = requires { Law::is_bridged(std::size_t{}); };
   static constexpr bool bonds = requires { Law::is_bonded(std::size_t{}); };
   static constexpr bool coulomb = requires { requires Law::is_coulomb; };
+  /// Variants of this law; a law that derives from one with variants inherits none.
+  static constexpr bool variants = requires(const Law law, std::size_t k) {
+    { law.variant(k) } -> std::same_as<Law>;
+  };
+  static constexpr bool at_rest = requires(const Law law, std::size_t k) {
+    law.variant_at_rest(k);
+  };
+  static constexpr bool friction = requires(const Law law) {
+    { law.friction() } -> std::convertible_to<double>;
+  };
   static constexpr bool lanes = requires(const Law law) { law.lane_parameters(); };
+  static constexpr bool maps_lanes = requires { &Law::template natural_map_lanes<S>; };
   /// Whether the lanes are those of the class that has solve().
   static constexpr bool own_lanes = requires {
     requires SolvesAs<Law, S, decltype(class_of(&Law::lane_parameters))>;
@@ -34,7 +45,8 @@ struct NamesOf {
 template <class Law, class S>
 requires(!SetValuedLaw<Law, S>) struct NamesOf<Law, S> {
   static constexpr bool attraction = false, springs = false, share = false, bridges = false,
-                        bonds = false, coulomb = false, lanes = false, own_lanes = false;
+                        bonds = false, variants = false, at_rest = false, friction = false,
+                        coulomb = false, lanes = false, maps_lanes = false, own_lanes = false;
 };
 
 /// Does not compile for policies that do not fit together.
@@ -65,6 +77,18 @@ struct Policies {
   static_assert(!Has::bonds || BondingLaw<Law, S>,
                 "Simulation: Law has is_bonded(), but is no BondingLaw; static_assert the concept "
                 "to see what is missing");
+  static_assert(
+      !Has::variants || StatefulLaw<Law, S>,
+      "Simulation: Law has variant(), but is no StatefulLaw; static_assert the concept to "
+      "see what is missing");
+  static_assert(!(StatefulLaw<Law, S> && Has::at_rest) || StaticFrictionLaw<Law, S>,
+                "Simulation: Law has variant_at_rest(), but is no StaticFrictionLaw; static_assert "
+                "the concept to see what is missing");
+  static_assert(!Has::coulomb || Has::friction,
+                "Simulation: Law has is_coulomb, but no friction() that returns a number");
+  static_assert(!(Has::maps_lanes && Has::own_lanes && CoulombLaw<Law, S>) || MapsLanes<Law, S>,
+                "Simulation: Law has natural_map_lanes(), but is no MapsLanes; static_assert the "
+                "concept to see what is missing");
   static_assert(!Has::own_lanes || LaneLaw<Law, S>,
                 "Simulation: Law has lane_parameters(), but is no LaneLaw; static_assert the "
                 "concept to see what is missing");
