@@ -51,7 +51,7 @@ typename S::Scalar inverse_mass_along(const Bodies<S>& bodies, std::uint32_t i,
 /// @param masses out: one per point
 template <class S>
 void find_effective_masses(const Bodies<S>& bodies, std::span<const Contact<S>> points,
-                std::span<typename S::Scalar> masses) {
+                           std::span<typename S::Scalar> masses) {
   using Scalar = typename S::Scalar;
   using Twist = typename S::Twist;
   Scalar deepest = 0, squares = 0;

@@ -67,7 +67,7 @@ class ForceDynamics {
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {
       last = end_of_pair(contacts, first);
       find_effective_masses<S>(bodies, std::span(contacts.points).subspan(first, last - first),
-                    std::span(masses_).subspan(first, last - first));
+                               std::span(masses_).subspan(first, last - first));
     }
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];

@@ -21,7 +21,8 @@ struct StepContext {
   ContactsOf<Law, S>& contacts;        ///< contacts of this step
   typename S::Scalar grain_size;       ///< length that tolerances are relative to [m]
   typename S::Scalar step;             ///< h [s]
-  typename S::Scalar margin;           ///< that tolerances of detection follow from [m]; bridges reach farther
+  typename S::Scalar
+      margin;  ///< that tolerances of detection follow from [m]; bridges reach farther
   /// Second-order terms of the relative velocity of each contact, world axes [m/s]; empty if
   /// none has any (chord_velocities.hpp).
   std::span<const typename S::Vector> chords = {};
