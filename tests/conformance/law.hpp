@@ -56,9 +56,9 @@ struct LocalProblem {
   static void set(moreau::RollingBlock<S>& out, const Eigen::Matrix<T, rows, rows>& w) {
     Turn turn;
     out.point = moreau::align_tangents<S>(w.template topLeftCorner<S::dim, S::dim>(), turn);
-    out.coupling = w.template topRightCorner<S::dim, S::angular_dim>();
-    out.coupling.template bottomRows<S::dim - 1>() =
-        turn.transpose() * out.coupling.template bottomRows<S::dim - 1>();
+    out.cross = w.template topRightCorner<S::dim, S::angular_dim>();
+    out.cross.template bottomRows<S::dim - 1>() =
+        turn.transpose() * out.cross.template bottomRows<S::dim - 1>();
     out.spin = w.template bottomRightCorner<S::angular_dim, S::angular_dim>();
   }
 };

@@ -151,12 +151,11 @@ typename RollingBlock<S>::Vector solve_rolling(const RollingBlock<S>& block,
   Row r = Row::Zero();
   for (int turn = 0; turn < 4000; ++turn) {
     const Row before = r;
-    const typename S::Vector b_point =
-        moreau::linear<S>(b) + block.coupling * moreau::angular<S>(r);
+    const typename S::Vector b_point = moreau::linear<S>(b) + block.cross * moreau::angular<S>(r);
     moreau::linear<S>(r) =
         solve_coulomb<S>(block.point, b_point, friction, typename S::Vector(moreau::linear<S>(r)));
     const typename S::Angular c =
-        moreau::angular<S>(b) + block.coupling.transpose() * moreau::linear<S>(r);
+        moreau::angular<S>(b) + block.cross.transpose() * moreau::linear<S>(r);
     moreau::angular<S>(r) = solve_couple(block.spin(0, 0), c, T(rolling * r[0]));
     if ((r - before).norm() <= std::numeric_limits<T>::epsilon() / 4 * r.norm()) break;
   }

@@ -61,7 +61,7 @@ RollingBlock<Space> round_block(std::mt19937_64& random) {
   block.point.normal = T(normal);
   block.point.coupling.setZero();
   block.point.slip.setConstant(T(slip));
-  block.coupling = T(cross) * Space::lever(Vector(Vector::Unit(0)));
+  block.cross = T(cross) * Space::lever(Vector(Vector::Unit(0)));
   block.spin = T(spin) * Space::Inertia::Identity();
   return block;
 }

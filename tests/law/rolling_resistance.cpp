@@ -57,7 +57,7 @@ RollingBlock<S> eccentric_block(std::mt19937_64& random) {
   add_transposed_product(turned, q, half);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
-      block.coupling(row, column) = turned(row, 3 + column);
+      block.cross(row, column) = turned(row, 3 + column);
       block.spin(row, column) = turned(3 + row, 3 + column);
     }
   return block;

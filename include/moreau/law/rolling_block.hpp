@@ -37,10 +37,10 @@ struct RollingBlock {
   static constexpr int rows = S::dim + S::angular_dim;  ///< impulse, then couple / R
   using Vector = Eigen::Matrix<Scalar, rows, 1>;
   using Matrix = Eigen::Matrix<Scalar, rows, rows>;
-  using Coupling = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
+  using Cross = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
 
   LocalBlock<S> point;       ///< P [1/kg]
-  Coupling coupling;         ///< C, D x A [1/kg]
+  Cross cross;               ///< C, D x A [1/kg]
   typename S::Inertia spin;  ///< Q, A x A, positive definite [1/kg]
 
   /// W r [m/s], D + A numbers, of r [N s].
@@ -48,14 +48,14 @@ struct RollingBlock {
     const typename S::Vector push = linear<S>(r);
     const typename S::Angular couple = angular<S>(r);
     Vector u;
-    linear<S>(u) = point * push + coupling * couple;
-    angular<S>(u) = coupling.transpose() * push + spin * couple;
+    linear<S>(u) = point * push + cross * couple;
+    angular<S>(u) = cross.transpose() * push + spin * couple;
     return u;
   }
   /// Makes the block that of W times a factor > 0 [-].
   RollingBlock& operator*=(Scalar factor) {
     point *= factor;
-    coupling *= factor;
+    cross *= factor;
     spin *= factor;
     return *this;
   }
@@ -65,8 +65,8 @@ struct RollingBlock {
     constexpr int d = S::dim, a = S::angular_dim;
     Matrix w;
     w.template topLeftCorner<d, d>() = point.matrix();
-    w.template topRightCorner<d, a>() = coupling;
-    w.template bottomLeftCorner<a, d>() = coupling.transpose();
+    w.template topRightCorner<d, a>() = cross;
+    w.template bottomLeftCorner<a, d>() = cross.transpose();
     w.template bottomRightCorner<a, a>() = spin;
     return w;
   }
@@ -80,12 +80,12 @@ namespace detail {
 template <class S>
 std::array<typename S::Scalar, 2> round_couple(const RollingBlock<S>& w, LocalBlock<S>& point) {
   using Scalar = typename S::Scalar;
-  using Coupling = typename RollingBlock<S>::Coupling;
-  const Coupling form = S::lever(typename S::Vector(S::Vector::Unit(0)));
-  Scalar cross = form.cwiseProduct(w.coupling).sum() / form.squaredNorm();
+  using Cross = typename RollingBlock<S>::Cross;
+  const Cross form = S::lever(typename S::Vector(S::Vector::Unit(0)));
+  Scalar cross = form.cwiseProduct(w.cross).sum() / form.squaredNorm();
   Scalar spin = w.spin.trace() / S::angular_dim;
   const Scalar aside =
-      (w.coupling - cross * form).norm() + (w.spin - spin * S::Inertia::Identity()).norm();
+      (w.cross - cross * form).norm() + (w.spin - spin * S::Inertia::Identity()).norm();
   if (!(aside <= std::sqrt(std::numeric_limits<Scalar>::epsilon()) * w.trace())) {
     point *= 2;
     cross = 0;
@@ -155,7 +155,7 @@ struct RoundBlock {
   RollingBlock<S> operator[](std::size_t lane) const {
     RollingBlock<S> block;
     block.point = point[lane];
-    block.coupling = Number::get(cross, lane) * S::lever(typename S::Vector(S::Vector::Unit(0)));
+    block.cross = Number::get(cross, lane) * S::lever(typename S::Vector(S::Vector::Unit(0)));
     block.spin = Number::get(spin, lane) * S::Inertia::Identity();
     return block;
   }

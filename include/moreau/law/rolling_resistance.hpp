@@ -169,9 +169,9 @@ class RollingResistance {
     Vector r = guess;
     for (int iteration = 0; iteration < 1000; ++iteration) {
       const Vector before = r;
-      const typename S::Vector b_point = linear<S>(b) + block.coupling * angular<S>(r);
+      const typename S::Vector b_point = linear<S>(b) + block.cross * angular<S>(r);
       linear<S>(r) = point_.template solve<S>(block.point, b_point, linear<S>(r));
-      const typename S::Angular c = angular<S>(b) + block.coupling.transpose() * linear<S>(r);
+      const typename S::Angular c = angular<S>(b) + block.cross.transpose() * linear<S>(r);
       const typename S::Angular couple =
           detail::solve_disc<typename S::Inertia, typename S::Angular, T>(block.spin, c,
                                                                           rolling_ * r[0]);

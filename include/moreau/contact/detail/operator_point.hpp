@@ -93,7 +93,7 @@ struct OperatorPoint : CoupleArm<S, Couples> {
       const typename S::Angular spin_a = mass_a.spin_of(this->axes.col(k)),
                                 spin_b = mass_b.spin_of(this->axes.col(k));
       block.spin.col(k) = this->axes.transpose() * (spin_a + spin_b);
-      block.coupling.col(k) =
+      block.cross.col(k) =
           frame.transpose() * (S::spin(spin_a, lever_a) + S::spin(spin_b, lever_b));
     }
   }

@@ -41,15 +41,15 @@ struct NearestFace {
 inline constexpr int most_points = 1000;
 
 /// The polytope in the plane: a ring of points, counter-clockwise.
-template <std::floating_point T, class Reach>
+template <std::floating_point T, class Farthest>
 class EpaPolygon {
  public:
   using Vector = typename Space<2, T>::Vector;
   using Face = NearestFace<Vector>;
 
-  /// @param reach    reach(n) -> the ExtremePoint of C with the largest n . point
+  /// @param farthest    farthest(n) -> the ExtremePoint of C with the largest n . point
   /// @param precise  differences below this are ignored [m]
-  EpaPolygon(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+  EpaPolygon(const Farthest& farthest, T precise) : farthest_(farthest), precise_(precise) {}
 
   /// Starts with a triangle of three points of C. Adds support points of C until C extends at most
   /// `precise` beyond the line of the side nearest to the origin, or until the polygon has
@@ -57,12 +57,12 @@ class EpaPolygon {
   void run() {
     for (int k = 0; k < 3; ++k) {
       const T angle = T(2.0943951) * static_cast<T>(k);
-      ring_.push_back(reach_(Vector(std::cos(angle), std::sin(angle))));
+      ring_.push_back(farthest_(Vector(std::cos(angle), std::sin(angle))));
     }
     while (true) {
       const std::size_t at = nearest_side();
       const Face nearest = face(at);
-      const auto next = reach_(nearest.outward);
+      const auto next = farthest_(nearest.outward);
       if (!(nearest.outward.dot(next.point) - nearest.offset > precise_) ||
           ring_.size() >= most_points)
         return;
@@ -96,19 +96,19 @@ class EpaPolygon {
     return best;
   }
 
-  const Reach& reach_;
+  const Farthest& farthest_;
   const T precise_;
   std::vector<ExtremePoint<Vector>> ring_;
 };
 
 /// The polytope in space: a hull of triangles, counter-clockwise from outside.
-template <std::floating_point T, class Reach>
+template <std::floating_point T, class Farthest>
 class EpaPolytope {
  public:
   using Vector = typename Space<3, T>::Vector;
 
   /// The arguments are the same as for EpaPolygon.
-  EpaPolytope(const Reach& reach, T precise) : reach_(reach), precise_(precise) {}
+  EpaPolytope(const Farthest& farthest, T precise) : farthest_(farthest), precise_(precise) {}
 
   /// Starts with a tetrahedron of four points of C. Adds support points of C until C extends at most
   /// `precise` beyond the plane of the face nearest to the origin, or until the polytope has
@@ -148,7 +148,7 @@ class EpaPolytope {
 
   /// Finds four points of C that do not lie in one plane, and their four faces.
   void start() {
-    points_ = {reach_(Vector::UnitX()), reach_(Vector(-Vector::UnitX()))};
+    points_ = {farthest_(Vector::UnitX()), farthest_(Vector(-Vector::UnitX()))};
     const Vector along = points_[1].point - points_[0].point;
     const auto frame = Space<3, T>::contact_frame(along.normalized());
     Vector normal;
@@ -172,7 +172,7 @@ class EpaPolytope {
   /// Of the support points in `direction` and in the opposite direction, adds the one whose
   /// distance from the point `from`, measured along `direction`, is larger.
   void add_farther(const Vector& direction, const Vector& from) {
-    const auto one = reach_(direction), other = reach_(Vector(-direction));
+    const auto one = farthest_(direction), other = farthest_(Vector(-direction));
     const bool take_one = direction.dot(one.point - from) >= direction.dot(from - other.point);
     points_.push_back(take_one ? one : other);
   }
@@ -201,7 +201,7 @@ class EpaPolytope {
   bool grow() {
     const std::size_t nearest = nearest_face();
     const Face& face = faces_[nearest];
-    const auto next = reach_(face.outward);
+    const auto next = farthest_(face.outward);
     if (!(face.outward.dot(next.point) - face.offset > precise_) || points_.size() >= most_points)
       return false;
     points_.push_back(next);
@@ -258,7 +258,7 @@ class EpaPolytope {
       rim_.erase(reverse);
   }
 
-  const Reach& reach_;
+  const Farthest& farthest_;
   const T precise_;
   std::vector<ExtremePoint<Vector>> points_;
   std::vector<Face> faces_;
@@ -270,17 +270,17 @@ class EpaPolytope {
 /// Runs EPA: expands the polytope until C extends no more than `precise` [m] beyond the polytope's
 /// nearest face. The polytope lies inside C. So a face of the polytope can lead to a smaller depth
 /// than a known depth only if the face is nearer to the origin than that depth.
-/// @param reach  reach(n) -> the ExtremePoint of C with the largest n . point; it must outlive the
+/// @param farthest  farthest(n) -> the ExtremePoint of C with the largest n . point; it must outlive the
 ///               result
-template <std::floating_point T, class Reach>
-EpaPolygon<T, Reach> epa(Space<2, T>, const Reach& reach, T precise) {
-  EpaPolygon<T, Reach> polytope(reach, precise);
+template <std::floating_point T, class Farthest>
+EpaPolygon<T, Farthest> epa(Space<2, T>, const Farthest& farthest, T precise) {
+  EpaPolygon<T, Farthest> polytope(farthest, precise);
   polytope.run();
   return polytope;
 }
-template <std::floating_point T, class Reach>
-EpaPolytope<T, Reach> epa(Space<3, T>, const Reach& reach, T precise) {
-  EpaPolytope<T, Reach> polytope(reach, precise);
+template <std::floating_point T, class Farthest>
+EpaPolytope<T, Farthest> epa(Space<3, T>, const Farthest& farthest, T precise) {
+  EpaPolytope<T, Farthest> polytope(farthest, precise);
   polytope.run();
   return polytope;
 }

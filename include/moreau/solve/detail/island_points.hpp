@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The contacts of one island in double precision, in the coordinates y of its bodies that make the
-// mass matrix the identity: with M^-1 = L L^T of a body, a change of its velocity is L y, and
+// mass matrix the identity: with M^-1 = R R^T of a body, a change of its velocity is R y, and
 //
 //     u = b + J y + C r,        y = J^T r  for a solution,
 //
-// where J stands for J L, and C is the compliance of the contacts, which is zero for rigid ones. |y|^2 / 2 is a
-// kinetic energy. Axes along which a body cannot move have a zero column in L.
+// where J stands for J R, and C is the compliance of the contacts, which is zero for rigid ones. |y|^2 / 2 is a
+// kinetic energy. Axes along which a body cannot move have a zero column in R.
 #pragma once
 
 #include <Eigen/Core>
@@ -182,7 +182,7 @@ class IslandPoints {
 
   /// The body of the problem that has a number in the island.
   std::uint32_t body(std::size_t number) const { return bodies_[number]; }
-  /// L y of a body, the change of its velocity (v, w) in world axes [m/s, rad/s].
+  /// R y of a body, the change of its velocity (v, w) in world axes [m/s, rad/s].
   MOREAU_INLINED Coordinates change(std::size_t body, const Coordinates& y) const {
     Coordinates sum = Coordinates::Zero();
     for (int k = 0; k < dofs; ++k)
@@ -226,7 +226,7 @@ class IslandPoints {
     for (int k = first; k < last; ++k) sum += m(k, k);
     return sum;
   }
-  /// L of a positive semidefinite matrix L L^T, lower triangle; a zero pivot gives a zero column.
+  /// R of a positive semidefinite matrix R R^T, lower triangle; a zero pivot gives a zero column.
   /// @param rounding of a part of the matrix, as a share of its trace
   static Root root(const Root& m, double rounding) {
     const double linear = rounding * trace(m, 0, dim), angular = rounding * trace(m, dim, dofs);
