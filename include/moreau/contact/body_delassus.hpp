@@ -23,13 +23,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/contact_lanes.hpp"
 #include "moreau/contact/detail/operator_cell.hpp"
 #include "moreau/contact/detail/operator_point.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/mobility.hpp"
@@ -401,11 +401,11 @@ class BodyDelassus {
     return difference;
   }
 
-  std::vector<Point> points_;
-  std::vector<Head> heads_;
-  std::vector<Turn> turns_;  // empty in the plane
-  std::vector<InverseMass<S>> masses_;
-  std::vector<PaddedTwist> changes_;
+  List<Point> points_;
+  List<Head> heads_;
+  List<Turn> turns_;  // empty in the plane
+  List<InverseMass<S>> masses_;
+  List<PaddedTwist> changes_;
   detail::OperatorCell<S> cell_;
   [[no_unique_address]] detail::SpringRows<Vector, Springs> springs_;
 };

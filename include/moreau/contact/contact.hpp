@@ -21,9 +21,9 @@
 #include <cstdint>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/core/value.hpp"
@@ -72,9 +72,9 @@ struct ContactKey {
 /// The contacts that detection finds in a step: arrays with one entry per point, sorted by (a, b, parts, feature).
 template <class S>
 struct DetectedContacts {
-  std::vector<Contact<S>> points;     ///< geometry and law
-  std::vector<ContactKey> keys;       ///< one per point
-  std::vector<ContactClass> classes;  ///< class of the pair, one per point
+  List<Contact<S>> points;     ///< geometry and law
+  List<ContactKey> keys;       ///< one per point
+  List<ContactClass> classes;  ///< class of the pair, one per point
 
   std::size_t size() const { return points.size(); }  ///< number of points
   /// Removes points; keeps the order of the others, and the memory.
@@ -105,9 +105,9 @@ struct Contacts : DetectedContacts<S> {
 
   /// One per point. Within a step, from the warm start to the end of the solve, they are rows of the operator: in its
   /// frames, couple / R in place of the couple (BodyDelassus::to_rows()).
-  std::vector<Impulse> impulses;
+  List<Impulse> impulses;
   /// One per point: index of the law's variant, see StatefulLaw; the step ends by choosing that of the next step.
-  std::vector<std::uint32_t> variants;
+  List<std::uint32_t> variants;
 
   using DetectedContacts<S>::size;
   using DetectedContacts<S>::points;

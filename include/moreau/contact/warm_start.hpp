@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/merge_join.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
@@ -108,9 +108,8 @@ Row carried(const auto& turn, const Contact<S>& before, const Contact<S>& now, c
 /// @param team       threads that share the work
 /// @returns how many contacts have a predecessor
 template <class S, int Rows, class Row>
-std::size_t carry(const Contacts<S, Rows>& before, Contacts<S, Rows>& now,
-                  const std::vector<Row>& old, std::vector<Row>& out, const auto& turn,
-                  const Team& team = {}) {
+std::size_t carry(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const List<Row>& old,
+                  List<Row>& out, const auto& turn, const Team& team = {}) {
   struct Count {
     std::size_t value = 0;
     void add(const Count& other) { value += other.value; }
@@ -216,8 +215,8 @@ std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, c
 /// @param out        in and out: one per contact of `now`, as carry() left it
 template <class S>
 void hand_over_stretches(const DetectedContacts<S>& before, const DetectedContacts<S>& now,
-                         const std::vector<typename S::Vector>& old,
-                         std::vector<typename S::Vector>& out, const SpringTurn<S>& turn) {
+                         const List<typename S::Vector>& old, List<typename S::Vector>& out,
+                         const SpringTurn<S>& turn) {
   detail::for_each_heir<S>(
       before, now, old,
       [&](const ContactKey& key) {

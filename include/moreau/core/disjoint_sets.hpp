@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <numeric>
 #include <utility>
-#include <vector>
+
+#include "moreau/core/list.hpp"
 
 namespace moreau::detail {
 
@@ -36,7 +37,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  List<std::uint32_t> parent_;
 };
 
 }  // namespace moreau::detail

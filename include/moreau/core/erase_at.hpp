@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace moreau {
 
@@ -11,8 +10,8 @@ namespace moreau {
 /// capacity do not change.
 /// @param is_gone function: index before the removal -> whether the element is removed; called once
 ///                for each element, ascending. It may read the element with its index in `items`
-template <class T>
-void erase_at(std::vector<T>& items, const auto& is_gone) {
+template <class Items>
+void erase_at(Items& items, const auto& is_gone) {
   std::size_t left = 0;
   for (std::size_t k = 0; k < items.size(); ++k) {
     if (is_gone(k)) continue;

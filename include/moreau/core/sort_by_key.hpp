@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <vector>
+
+#include "moreau/core/list.hpp"
 
 namespace moreau::detail {
 
@@ -13,7 +14,7 @@ namespace moreau::detail {
 /// for each byte that is not the same in all keys.
 /// @param scratch memory, kept from call to call
 template <class Entry>
-void sort_by_key(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
+void sort_by_key(List<Entry>& entries, List<Entry>& scratch) {
   if (entries.empty()) return;
   std::uint64_t varies = 0;
   for (const Entry& entry : entries) varies |= entry.key ^ entries[0].key;

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/sort_by_key.hpp"
 
 namespace moreau::detail {
@@ -64,7 +64,7 @@ class SpatialOrder {
     std::uint32_t box;
   };
 
-  std::vector<Entry> order_, scratch_;
+  List<Entry> order_, scratch_;
 };
 
 }  // namespace moreau::detail

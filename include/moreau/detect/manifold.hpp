@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <tuple>
 #include <utility>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -115,12 +115,12 @@ struct Manifold {
   typename S::Vector normal = S::Vector::Zero();             ///< unit, from a to b, world axes
   typename S::Scalar gap = 0;                                ///< signed gap of the pair [m]
   ContactClass contact_class = ContactClass::vertex_vertex;  ///< of the features that touch
-  std::uint32_t part_a = 0;                 ///< for a Compound: the part of a that touches, else 0
-  std::uint32_t part_b = 0;                 ///< for a Compound: the part of b that touches, else 0
-  std::vector<ManifoldPoint<S>> points;     ///< points with a gap of at most the margin, sorted by
-                                            ///< feature
-  std::vector<typename S::Scalar> scratch;  ///< working memory of the function that fills the
-                                            ///< manifold
+  std::uint32_t part_a = 0;          ///< for a Compound: the part of a that touches, else 0
+  std::uint32_t part_b = 0;          ///< for a Compound: the part of b that touches, else 0
+  List<ManifoldPoint<S>> points;     ///< points with a gap of at most the margin, sorted by
+                                     ///< feature
+  List<typename S::Scalar> scratch;  ///< working memory of the function that fills the
+                                     ///< manifold
 
   /// Removes the points; keeps the memory.
   void clear() { points.clear(); }

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -148,7 +149,7 @@ class Placement<ShapeT> {
   const ShapeT* shape_ = nullptr;
   Vector center_ = Vector::Zero();
   Rows<S> vertices_, normals_;
-  std::vector<Scalar, detail::CacheLineAllocator<Scalar>> offsets_;
+  List<Scalar, detail::cache_line> offsets_;
 };
 
 /// The placed data of a ball or disk.
@@ -338,7 +339,7 @@ class Placed<ShapeT> {
   const ShapeT* shape_ = nullptr;
   Vector center_;
   std::vector<Part> parts_;  // more than part_count() if a grain placed before had more
-  std::vector<Aabb<Space>> boxes_;
+  List<Aabb<Space>> boxes_;
   Aabb<Space> box_;
 };
 

@@ -17,8 +17,8 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
 
 namespace moreau {
@@ -72,7 +72,7 @@ class PointChoice {
  public:
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
-  using Points = std::vector<ManifoldPoint<S>>;
+  using Points = List<ManifoldPoint<S>>;
 
   explicit PointChoice(const Points& points) : points_(points) {}
 

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/io/detail/crc64.hpp"
 
@@ -106,6 +107,8 @@ template <class X>
 inline constexpr bool is_list = false;
 template <class X>
 inline constexpr bool is_list<std::vector<X>> = true;
+template <class X, std::size_t Alignment>
+inline constexpr bool is_list<List<X, Alignment>> = true;
 template <class X>
 inline constexpr bool is_list<std::deque<X>> = true;
 template <>

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <tuple>
-#include <vector>
 
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/value.hpp"
@@ -43,25 +43,25 @@ struct Bodies {
   using Twist = typename S::Twist;
 
   /// Position of the centre of mass [m], and rotation from body to world axes.
-  std::vector<Pose<S>> pose;
-  std::vector<Twist> velocity;  ///< twist (v, w), world axes [m/s, rad/s]
-  std::vector<Twist> force;     ///< applied (force, torque about the centre of mass), without
-                                ///< gravity and contacts, world axes [N, N m]
+  List<Pose<S>> pose;
+  List<Twist> velocity;  ///< twist (v, w), world axes [m/s, rad/s]
+  List<Twist> force;     ///< applied (force, torque about the centre of mass), without
+                         ///< gravity and contacts, world axes [N, N m]
   /// Along each axis of the body [1/kg]; 0 if the motion along the axis is prescribed.
-  std::vector<Vector> inverse_mass;
+  List<Vector> inverse_mass;
   /// About the centre of mass, body axes [kg m^2]; 0 for walls. A grain keeps it while its motion is
   /// prescribed.
-  std::vector<Inertia> inertia_body;
+  List<Inertia> inertia_body;
   /// I^-1/2, body axes [kg^-1/2 m^-1]; 0 if the rotation is prescribed.
-  std::vector<Inertia> inverse_inertia_root_body;
+  List<Inertia> inverse_inertia_root_body;
   /// The mass on which gravity acts [kg]: that of a grain, also while its motion is prescribed; 0 for
   /// walls, also for a wall with a mass along its normal.
-  std::vector<typename S::Scalar> grain_mass;
-  std::vector<MaterialId> material;  ///< material of the surface
+  List<typename S::Scalar> grain_mass;
+  List<MaterialId> material;  ///< material of the surface
   /// The id of the body. If its generation is odd, the element belongs to no body: its grain was
   /// removed, and it will be the element of a body that is added later. Until then it is at rest and
   /// has zero mass.
-  std::vector<BodyId> id;
+  List<BodyId> id;
 
   /// Number of elements of each array: bodies, and elements of removed grains that no later body has
   /// taken.

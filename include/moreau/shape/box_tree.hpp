@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/list.hpp"
 
 namespace moreau::detail {
 
@@ -86,8 +86,8 @@ class BoxTree {
     build(boxes, middle, end);
   }
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
+  List<Node> nodes_;
+  List<std::uint32_t> order_;
 };
 
 }  // namespace moreau::detail

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 namespace moreau::detail {
 
@@ -12,9 +11,9 @@ inline void prefetch(const void* from, std::size_t bytes) {
   for (std::size_t at = 0; at < bytes; at += line)
     __builtin_prefetch(static_cast<const char*>(from) + at);
 }
-template <class T>
-void prefetch(const std::vector<T>& items) {
-  prefetch(items.data(), items.size() * sizeof(T));
+template <class Items>
+void prefetch(const Items& items) {
+  prefetch(items.data(), items.size() * sizeof(items[0]));
 }
 
 }  // namespace moreau::detail

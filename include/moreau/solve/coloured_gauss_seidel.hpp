@@ -35,9 +35,9 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
@@ -86,7 +86,7 @@ class ColouredGaussSeidel {
   requires SetValuedLaw<Law, typename Operator::Space>
   struct Workspace {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
-    std::vector<typename Operator::Vector> first;  ///< result of sweeps [N s]
+    List<typename Operator::Vector> first;         ///< result of sweeps [N s]
     /// Small islands; contacts with other laws are solved by sweeps alone.
     std::conditional_t<CoulombLaw<Law, typename Operator::Space>,
                        detail::IslandSolver<Operator, Law>, NoIslands>

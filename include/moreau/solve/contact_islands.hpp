@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <vector>
 
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/core/list.hpp"
 
 namespace moreau::detail {
 
@@ -97,9 +97,9 @@ class ContactIslands {
 
   std::uint32_t present_ = none;  // island of the pair taken last
   DisjointSets sets_;
-  std::vector<std::uint32_t> island_of_, of_contact_, contacts_;
-  std::vector<unsigned char> moves_, seen_;
-  std::vector<std::size_t> bodies_, pairs_, first_;
+  List<std::uint32_t> island_of_, of_contact_, contacts_;
+  List<unsigned char> moves_, seen_;
+  List<std::size_t> bodies_, pairs_, first_;
 };
 
 }  // namespace moreau::detail

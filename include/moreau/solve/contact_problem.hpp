@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau {
@@ -28,9 +29,9 @@ struct ContactProblem {
   using Scalar = typename Operator::Scalar;
   using Vector = typename Operator::Vector;  ///< one contact's rows of u, r and b
 
-  Operator delassus;                  ///< W and b; carries u under the impulses applied so far
-  std::vector<Law> laws;              ///< the table of laws
-  std::vector<std::uint32_t> law_of;  ///< one per contact: its entry in the table
+  Operator delassus;           ///< W and b; carries u under the impulses applied so far
+  std::vector<Law> laws;       ///< the table of laws
+  List<std::uint32_t> law_of;  ///< one per contact: its entry in the table
 
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.

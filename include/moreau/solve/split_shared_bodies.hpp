@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
@@ -20,7 +20,7 @@ namespace moreau {
 /// @param touched  a buffer
 template <class S>
 void split_shared_bodies(SharedBodies& shared, std::span<const Contact<S>> contacts,
-                         std::span<MobilityRoot<S>> roots, std::vector<unsigned char>& touched) {
+                         std::span<MobilityRoot<S>> roots, List<unsigned char>& touched) {
   touched.assign(roots.size(), 0);
   const auto touch = [&](std::uint32_t i) {
     touched[i] = !(roots[i].linear.isZero(0) && roots[i].angular.isZero(0));

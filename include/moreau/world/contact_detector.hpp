@@ -23,6 +23,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -257,23 +258,23 @@ class ContactDetector {
                                       const Bodies<S>& bodies,
                                       const detail::PreviousContacts<S>& previous, Member& found);
 
-  std::vector<Grain> grains_;  // ascending by body
-  std::vector<Grain> spare_;   // of removed grains; what they have allocated is used again
-  std::vector<std::uint32_t> number_after_;  // of each grain, in remove_grains()
+  std::vector<Grain> grains_;         // ascending by body
+  std::vector<Grain> spare_;          // of removed grains; what they have allocated is used again
+  List<std::uint32_t> number_after_;  // of each grain, in remove_grains()
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
   detail::MeshWalls<ShapeT> meshes_;
-  std::vector<Aabb<S>> boxes_;  // of the grains
+  List<Aabb<S>> boxes_;  // of the grains
   detail::NearPairs<ShapeT, BroadPhaseT> near_;
   ContactPoints kept_points_ = ContactPoints::all;
   Team team_;
   detail::VisitOrder<S> order_;
   detail::StepMargins<S> margins_;
   detail::InternalEdges<ShapeT> internal_edges_;
-  std::vector<Member> members_;             // of the team
-  std::vector<typename Member::Run> runs_;  // of each grain
-  std::vector<std::size_t> place_;  // of the contacts of each grain; at the end, their number
-  Scalar widest_ = 0;               // width of the grains in any orientation [m]
+  std::vector<Member> members_;      // of the team
+  List<typename Member::Run> runs_;  // of each grain
+  List<std::size_t> place_;          // of the contacts of each grain; at the end, their number
+  Scalar widest_ = 0;                // width of the grains in any orientation [m]
 };
 
 }  // namespace moreau

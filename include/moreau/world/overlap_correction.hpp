@@ -22,10 +22,10 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/parallel/team.hpp"
@@ -235,12 +235,12 @@ class OverlapCorrection {
   Options options_;
   detail::ContactIslands islands_;
   Newton newton_;
-  std::vector<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
-  std::vector<unsigned char> turns_;        // bodies that can rotate
-  std::vector<Candidate> candidates_;       // contacts
+  List<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
+  List<unsigned char> turns_;        // bodies that can rotate
+  List<Candidate> candidates_;       // contacts
   detail::OverlapSweeps<S> sweeps_;
-  std::vector<typename S::Twist> shifts_;
-  std::vector<unsigned char> shifted_;  // bodies whose shift is not zero; empty: none
+  List<typename S::Twist> shifts_;
+  List<unsigned char> shifted_;  // bodies whose shift is not zero; empty: none
 };
 
 }  // namespace moreau

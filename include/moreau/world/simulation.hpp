@@ -11,11 +11,11 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -387,7 +387,7 @@ class Simulation : public BodyControl<ShapeT> {
   detail::MarginAttempts attempts_;
   CellMotion<S> cell_motion_;  // of a periodic cell that can deform
   Team team_;
-  std::vector<unsigned char> lost_;  // one per contact: whether remove() removes it
+  List<unsigned char> lost_;  // one per contact: whether remove() removes it
 };
 
 }  // namespace moreau

@@ -9,9 +9,9 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau::detail {
@@ -88,7 +88,7 @@ class OperatorCell {
 
   bool exists_ = false;
   Matrix response_ = Matrix::Zero(), change_ = Matrix::Zero();
-  std::vector<Scalar> factors_;  // of the blocks [-]
+  List<Scalar> factors_;  // of the blocks [-]
 };
 
 }  // namespace moreau::detail

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/local_block.hpp"
@@ -34,8 +34,8 @@ template <class Vector, bool Springs>
 struct SpringRows {};
 template <class Vector>
 struct SpringRows<Vector, true> {
-  std::vector<Vector> compliance;  ///< diagonal of D_cc [1/kg]
-  std::vector<Vector> stretch;     ///< D_cc r_c [m/s]
+  List<Vector> compliance;  ///< diagonal of D_cc [1/kg]
+  List<Vector> stretch;     ///< D_cc r_c [m/s]
 };
 
 /// The data that BodyDelassus stores of a contact.

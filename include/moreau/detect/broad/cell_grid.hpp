@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/broad/detail/bulk.hpp"
 #include "moreau/detect/broad/detail/sort_pairs.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -321,12 +322,12 @@ class CellGrid {
   Aabb<S> region_;  // its lower corner is the origin of the cells
   int level_count_ = 0;
   std::array<Level, max_levels> levels_{};
-  std::vector<std::uint8_t> level_of_;
+  List<std::uint8_t> level_of_;
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> loose_;         // boxes that are in no level
-  std::vector<int> coarser_;                 // levels with boxes
-  std::vector<std::uint32_t> begin_, next_;  // of every bucket in entries_
-  std::vector<Entry> entries_;
+  List<std::uint32_t> loose_;         // boxes that are in no level
+  List<int> coarser_;                 // levels with boxes
+  List<std::uint32_t> begin_, next_;  // of every bucket in entries_
+  List<Entry> entries_;
   detail::PairSorter sorter_;
 };
 

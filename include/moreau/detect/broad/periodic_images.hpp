@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/neighbour_cells.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -123,13 +124,13 @@ class PeriodicImages {
               [](const Image& x, const Image& y) { return x.pair < y.pair; });
   }
 
-  std::vector<Aabb<S>> boxes_;        // the boxes shifted into the cell, then their images
+  List<Aabb<S>> boxes_;               // the boxes shifted into the cell, then their images
   std::vector<std::uint32_t> owner_;  // for each element of boxes_, the index of the given box that
                                       // it is a copy of
   std::vector<Vector> cells_;  // for each element of boxes_, its shift from the given box, in cells
   Aabb<S> hull_;               // bounding box of all boxes in the cell, without images [m]
   std::vector<IndexPair> found_;
-  std::vector<Image> images_;
+  List<Image> images_;
 };
 
 }  // namespace moreau

@@ -9,10 +9,10 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/simd/cache_lines.hpp"
 #include "moreau/simd/prefetch.hpp"
 #include "moreau/simd/wide.hpp"
@@ -220,7 +220,7 @@ class Rows {
     return tile;
   }
 
-  std::vector<T, CacheLineAllocator<T>> rows_;
+  List<T, cache_line> rows_;
   Eigen::Index count_ = 0, padded_ = 0;
 };
 

@@ -203,7 +203,7 @@ std::size_t drop_points_at_seams(const Placed<ShapeT>& grain, std::uint32_t part
     return 0;
   } else {
     const auto& vertices = grain.part(part).vertices();
-    return std::erase_if(points, [&](const auto& point) {
+    return erase_if(points, [&](const auto& point) {
       const auto kind = feature_on_wall<SpaceOf<ShapeT>>(point.feature);
       const auto feature = std::uint32_t(point.feature.a());
       if (is_inside(grain, part, kind, feature, normal)) return true;

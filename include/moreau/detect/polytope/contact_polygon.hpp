@@ -25,8 +25,8 @@
 #include <cstring>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/polytope/contact_segment.hpp"
 #include "moreau/detect/polytope/facing_features.hpp"
@@ -59,7 +59,7 @@ class ContactPolygon {
   /// Projects the two faces. Call it before for_each_corner.
   /// @param offset   centre of b minus centre of a, world axes [m]
   /// @param scratch  memory in which this object stores the projections; it must outlive the object
-  void project(const Vector& offset, std::vector<T>& scratch) {
+  void project(const Vector& offset, List<T>& scratch) {
     const std::size_t n = loop_a_.size(), m = loop_b_.size();
     const std::size_t wide_n = padded(n), wide_m = padded(m);
     scratch.resize(3 * (wide_n + wide_m) + n * wide_m + m * wide_n);
@@ -319,8 +319,7 @@ class ContactPolygon {
 template <std::floating_point T>
 ContactPolygon<T> contact_polygon(const PolytopePair<Polyhedron<T>>& pair,
                                   const FacingFeatures& facing,
-                                  const typename Space<3, T>::Vector& normal,
-                                  std::vector<T>& scratch) {
+                                  const typename Space<3, T>::Vector& normal, List<T>& scratch) {
   ContactPolygon<T> polygon(pair.a, facing.a, pair.b, facing.b, normal,
                             pair.size * DetectionTolerance<T>::coincident);
   polygon.project(pair.offset, scratch);
@@ -329,7 +328,7 @@ ContactPolygon<T> contact_polygon(const PolytopePair<Polyhedron<T>>& pair,
 template <std::floating_point T>
 ContactSegment<T> contact_polygon(const PolytopePair<Polygon<T>>& pair,
                                   const FacingFeatures& facing,
-                                  const typename Space<2, T>::Vector& normal, std::vector<T>&) {
+                                  const typename Space<2, T>::Vector& normal, List<T>&) {
   return {pair.a,
           facing.a,
           pair.b,

@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/polytope/contact_polygon.hpp"
 #include "moreau/detect/polytope/detail/single_contact_point.hpp"
@@ -88,13 +88,13 @@ void add_corners(const PolytopePair<ShapeT>& pair, const FoundAxis<SpaceOf<Shape
 /// The contact class of a set of contact points.
 /// @param has_face  whether a face makes the separating axis
 template <std::floating_point T>
-ContactClass class_of_points(const std::vector<ManifoldPoint<Space<3, T>>>& points, bool has_face) {
+ContactClass class_of_points(const List<ManifoldPoint<Space<3, T>>>& points, bool has_face) {
   if (points.size() == 1) return class_of_point(points[0].feature);
   if (points.size() > 2) return ContactClass::face_face;
   return has_face ? ContactClass::edge_face : ContactClass::edge_edge;
 }
 template <std::floating_point T>
-ContactClass class_of_points(const std::vector<ManifoldPoint<Space<2, T>>>& points, bool) {
+ContactClass class_of_points(const List<ManifoldPoint<Space<2, T>>>& points, bool) {
   return points.size() == 1 ? class_of_point(points[0].feature) : ContactClass::edge_edge;
 }
 
@@ -139,7 +139,7 @@ typename SpaceOf<ShapeT>::Vector middle_of_contact(const PolytopePair<ShapeT>& p
   using T = typename S::Scalar;
   typename S::Vector middle = witness_middle(pair, found);
   if (witness_is_on_both(pair, found)) return middle;
-  std::vector<T> scratch;
+  List<T> scratch;
   const auto facing = facing_features(pair, found.axis, std::max(found.axis.gap, T(0)));
   T deepest = std::numeric_limits<T>::infinity();
   contact_polygon(pair, facing, found.axis.normal, scratch)

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/shape/box_tree.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
@@ -34,8 +35,8 @@ namespace moreau::detail {
 using FaceList = std::vector<std::vector<std::uint32_t>>;
 
 /// The directed edges of all faces, sorted.
-inline std::vector<std::array<std::uint32_t, 2>> directed_edges(const FaceList& faces) {
-  std::vector<std::array<std::uint32_t, 2>> edges;
+inline List<std::array<std::uint32_t, 2>> directed_edges(const FaceList& faces) {
+  List<std::array<std::uint32_t, 2>> edges;
   for (const auto& face : faces) {
     for (std::size_t k = 0; k < face.size(); ++k) {
       edges.push_back({face[k], face[(k + 1) % face.size()]});
@@ -141,7 +142,7 @@ class FaceMerging {
   /// The cyclic list of vertices around a group of triangles, or nothing if there is more than one
   /// such cycle.
   std::optional<std::vector<std::uint32_t>> boundary_of(std::uint32_t g) const {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> next;
+    List<std::pair<std::uint32_t, std::uint32_t>> next;
     for (const std::uint32_t t : members_[g]) {
       for (std::size_t e = 0; e < 3; ++e) {
         if (group_[triangles_[t].neighbour[e]] == g) continue;
@@ -165,7 +166,7 @@ class FaceMerging {
   void drop_flat_vertices(FaceList& faces) const {
     for (bool changed = true; changed;) {
       changed = false;
-      std::vector<int> faces_at(points_.size(), 0);
+      List<int> faces_at(points_.size(), 0);
       for (const auto& face : faces) {
         for (const std::uint32_t v : face) ++faces_at[v];
       }

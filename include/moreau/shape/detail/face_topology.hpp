@@ -16,6 +16,7 @@
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/simd/prefetch.hpp"
 
@@ -83,7 +84,7 @@ struct FaceTopology {
   IndexLists face_edges;    ///< edges of each face: edge k joins vertices k and k + 1 of the face
   IndexLists vertex_faces;  ///< faces at each vertex, in ascending order
   IndexLists vertex_edges;  ///< edges at each vertex, in ascending order
-  std::vector<PolyhedronEdge> edges;  ///< the edges, each listed once
+  List<PolyhedronEdge> edges;  ///< the edges, each listed once
 
   /// Begins to load all lists into the cache.
   void prefetch() const {
@@ -180,7 +181,7 @@ struct FaceTopology {
   }
 
   void collect(std::size_t vertex_count, std::string_view function) {
-    std::vector<IndexLists::Entry> entries;
+    List<IndexLists::Entry> entries;
     for (std::uint32_t f = 0; f < faces.size(); ++f)
       for (const std::uint32_t v : faces[f]) entries.push_back({v, f});
     vertex_faces.assign(vertex_count, entries);

@@ -33,6 +33,7 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/core/neighbour_cells.hpp"
 #include "moreau/shape/detail/orientation.hpp"
 
@@ -76,7 +77,7 @@ class TriangleHull {
 
   /// The triangles of the hull, counter-clockwise seen from outside. The hull is closed and convex.
   /// Neighbouring triangles may be coplanar.
-  const std::vector<HullTriangle>& triangles() const { return triangles_; }
+  const List<HullTriangle>& triangles() const { return triangles_; }
 
  private:
   static constexpr std::uint32_t none = ~0U;
@@ -210,12 +211,12 @@ class TriangleHull {
   }
 
   std::span<const Point> points_;
-  std::vector<HullTriangle> triangles_;
+  List<HullTriangle> triangles_;
   std::vector<std::uint32_t> visible_, slots_, orphans_, starts_at_, ends_at_;
   std::vector<std::uint32_t> sees_;          // for each point a triangle it is outside of, or none
   std::vector<std::uint32_t> first_, next_;  // the points of each triangle, as linked lists
   std::vector<std::uint32_t> seen_by_;       // for each triangle the last point that saw it
-  std::vector<Rim> rim_;
+  List<Rim> rim_;
 };
 
 }  // namespace moreau::detail

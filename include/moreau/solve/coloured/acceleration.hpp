@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/solve/detail/anderson_mixing.hpp"
 #include "moreau/solve/detail/stagnation_test.hpp"
 #include "moreau/solve/nesterov_momentum.hpp"
@@ -26,7 +26,7 @@ class ImpulseMixing {
   using Lanes = typename Kernel::Lanes;
 
   /// @param active groups with active points
-  void start(Kernel& kernel, const std::vector<std::uint32_t>& active) {
+  void start(Kernel& kernel, const List<std::uint32_t>& active) {
     points_.clear();
     for (const std::uint32_t k : active) {
       const typename Kernel::Group& group = kernel.groups()[k];
@@ -54,7 +54,7 @@ class ImpulseMixing {
         std::memcpy(to, &kernel.points()[p].impulse[d], sizeof(typename Lanes::Values));
   }
 
-  std::vector<std::uint32_t> points_;
+  List<std::uint32_t> points_;
   Eigen::Matrix<T, Eigen::Dynamic, 1> packed_;
   AndersonMixing<T> anderson_;
 };

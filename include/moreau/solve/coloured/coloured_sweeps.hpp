@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/acceleration.hpp"
 #include "moreau/solve/coloured/group_kernel.hpp"
@@ -190,7 +190,7 @@ class ColouredSweeps {
   ImpulseMixing<Kernel> mixing_;
   int mixed_sweeps_ = 0;           // since mixing started
   std::size_t active_points_ = 0;  // packs of them
-  std::vector<typename Kernel::Values> saved_;
+  List<typename Kernel::Values> saved_;
 };
 
 }  // namespace moreau::detail

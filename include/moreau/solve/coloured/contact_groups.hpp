@@ -22,8 +22,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/core/sort_by_key.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
@@ -55,10 +55,10 @@ class ContactGroups {
   /// Largest sum of tr(W^-1 W_hub) over the points of a phase of a hub.
   static constexpr auto most_in_phase = typename S::Scalar(0.1);
 
-  std::vector<Group> groups;                       ///< sorted by chunk, then by phase
-  std::vector<Points> points;                      ///< in the order of groups
-  std::vector<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
-  std::vector<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
+  List<Group> groups;                       ///< sorted by chunk, then by phase
+  List<Points> points;                      ///< in the order of groups
+  List<std::array<LaneMass<S>, 2>> masses;  ///< of the bodies a and b of each group
+  List<LaneMassMatrices<S>> mass_matrices;  ///< of groups with a body that needs them
 
   /// Number of velocities of LaneVelocities: one per body, and one per group for unused lanes and bodies
   /// that cannot move, so that groups of one colour never write the same velocity.
@@ -360,16 +360,16 @@ class ContactGroups {
 
   std::size_t body_count_ = 0;
   std::uint32_t point_count_ = 0, matrices_ = 0;  // PointPacks; groups with mass_matrices
-  std::vector<std::size_t> begin_;  // of each group in order_; at the end, the number of pairs
-  std::vector<std::array<std::uint32_t, 2>> bodies_;
-  std::vector<std::uint32_t> first_;  // first contact of each pair; at the end, their number
-  std::vector<unsigned char> moves_, isotropic_;
-  std::vector<std::uint32_t> chunk_;         // of each body; `shared` if there are no chunks
-  std::vector<typename S::Scalar> share_;    // of each hub, see find_shares()
-  std::vector<std::uint32_t> phase_points_;  // points of each phase of a hub
-  std::uint32_t phase_hub_ = 0;              // hub of the last phase
-  std::vector<Ordered> order_, sorted_;
-  std::vector<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
+  List<std::size_t> begin_;  // of each group in order_; at the end, the number of pairs
+  List<std::array<std::uint32_t, 2>> bodies_;
+  List<std::uint32_t> first_;  // first contact of each pair; at the end, their number
+  List<unsigned char> moves_, isotropic_;
+  List<std::uint32_t> chunk_;         // of each body; `shared` if there are no chunks
+  List<typename S::Scalar> share_;    // of each hub, see find_shares()
+  List<std::uint32_t> phase_points_;  // points of each phase of a hub
+  std::uint32_t phase_hub_ = 0;       // hub of the last phase
+  List<Ordered> order_, sorted_;
+  List<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
   FirstFitColouring colouring_;
   PairsOfBodies of_bodies_;
   bool of_bodies_are_valid_ = false;

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/solve/coloured/used_colours.hpp"
 
 namespace moreau::detail {
@@ -50,7 +50,7 @@ class FirstFitColouring {
   std::uint32_t operator[](std::size_t pair) const { return colour_[pair]; }
 
  private:
-  std::vector<std::uint32_t> degree_, colour_;
+  List<std::uint32_t> degree_, colour_;
   UsedColours<1> used_;  // at each body: of the pairs that lie inside a block, and of the others
 };
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_cell.hpp"
@@ -68,7 +68,7 @@ class GroupKernel {
   }
   /// Computes the velocities of the bodies and of the cell from the impulses alone.
   /// @param all all groups
-  MOREAU_INLINED void recompute_velocities(const std::vector<std::uint32_t>& all) {
+  MOREAU_INLINED void recompute_velocities(const List<std::uint32_t>& all) {
     velocity_.reset(contacts_.velocities(), contacts_.bodies());
     if (cell_.moves()) cell_.begin_from_zero();
     for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
@@ -91,8 +91,8 @@ class GroupKernel {
         .template sums<ResidualSums<Operator, Law>>(scale);
   }
 
-  const std::vector<Group>& groups() const { return contacts_.groups; }
-  std::vector<Points>& points() { return contacts_.points; }
+  const List<Group>& groups() const { return contacts_.groups; }
+  List<Points>& points() { return contacts_.points; }
   LaneVelocities<S, Lanes>& velocity() { return velocity_; }
 
   /// Visits the active points of group k.
@@ -121,7 +121,7 @@ class GroupKernel {
   }
   /// After a sweep: gives such a cell the velocity of the impulses.
   /// @param groups of the sweep
-  void end_sweep(const std::vector<std::uint32_t>& groups) {
+  void end_sweep(const List<std::uint32_t>& groups) {
     if (cell_.moves()) cell_.end_sweep(groups, contacts_);
   }
   /// After a phase of groups of a hub: adds to the velocity of the hub what the visits of a group
@@ -129,7 +129,7 @@ class GroupKernel {
   void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
 
   /// Squared change of impulses in the last visits of some groups, added up in their order.
-  double squared_change(const std::vector<std::uint32_t>& groups) const {
+  double squared_change(const List<std::uint32_t>& groups) const {
     Values change2{};
     for (const std::uint32_t k : groups) change2 += changes_[k];
     return double(Lanes::sum(change2));
@@ -349,9 +349,9 @@ class GroupKernel {
   bool is_large_ = false;    // whether velocities are loaded ahead
   bool has_extras_ = false;  // whether a visit begins with more than loading its bodies
   // One entry per group.
-  std::vector<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
-  std::vector<SweepChange> measures_;
-  std::vector<typename LaneVelocities<S, Lanes>::Change> hub_changes_;  // of groups that delay them
+  List<Values> changes_;  // |change of impulses|^2 of the last visit, in each lane
+  List<SweepChange> measures_;
+  List<typename LaneVelocities<S, Lanes>::Change> hub_changes_;  // of groups that delay them
 };
 
 }  // namespace moreau::detail

@@ -17,9 +17,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
@@ -100,8 +100,7 @@ class LaneCell {
   /// After a sweep: finds Lambda.
   /// @param groups   those that were visited or skipped
   /// @param contacts those of start()
-  MOREAU_COMPILED_ONCE void end_sweep(const std::vector<std::uint32_t>& groups,
-                                      const auto& contacts) {
+  MOREAU_COMPILED_ONCE void end_sweep(const List<std::uint32_t>& groups, const auto& contacts) {
     for (const std::uint32_t k : by_points_) add_impulses(contacts, k, T(0), T(1));
     std::array<Values, std::size_t{S::dim * S::dim}> sums{};
     const auto add = [&](const Vector& impulse, const Vector& branch) {
@@ -166,8 +165,8 @@ class LaneCell {
   }
 
   bool moves_ = false;
-  std::vector<Pairs> pairs_;  // of each group
-  std::vector<std::uint32_t>
+  List<Pairs> pairs_;  // of each group
+  List<std::uint32_t>
       by_points_;  // groups whose P is the difference of the impulses of their points
   Matrix response_ = Matrix::Zero();
   // Lambda [1/s]: of the impulses, before the last extrapolation, and from which the sweep starts.

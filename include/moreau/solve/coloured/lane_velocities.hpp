@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/simd/cache_lines.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
@@ -120,7 +120,7 @@ class LaneVelocities {
     return now_[registers * body + k / Number::lanes][k % Number::lanes];
   }
 
-  std::vector<Values, CacheLineAllocator<Values>> now_, before_;
+  List<Values, cache_line> now_, before_;
   std::size_t moving_ = 0;  // the first of them, that extrapolate() changes
 };
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 
 namespace moreau::detail {
@@ -51,8 +51,8 @@ class PairsOfBodies {
     return *std::lower_bound(begin_.begin(), begin_.end() - 1, entry);
   }
 
-  std::vector<std::size_t> begin_;  // of each body in entries_; then their number, twice
-  std::vector<Entry> entries_;
+  List<std::size_t> begin_;  // of each body in entries_; then their number, twice
+  List<Entry> entries_;
 };
 
 }  // namespace moreau::detail

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/first_fit_colouring.hpp"
 
@@ -21,7 +21,7 @@ class Schedule {
   /// Takes those groups k = 0, 1, .. for which points(k) > 0, the points that a visit solves.
   /// @param groups sorted: those inside chunks by chunk, then the others by phase
   template <class Group>
-  void assign(const std::vector<Group>& groups, const auto& points) {
+  void assign(const List<Group>& groups, const auto& points) {
     list_.clear();
     before_.assign(1, 0);
     for (std::uint32_t k = 0; k < groups.size(); ++k)
@@ -45,7 +45,7 @@ class Schedule {
     }
     serial_ = i;
   }
-  const std::vector<std::uint32_t>& groups() const { return list_; }
+  const List<std::uint32_t>& groups() const { return list_; }
 
   /// Calls visit(k) for all groups k, phase after phase; work of member `rank` of a team of `size`.
   /// @param wait   returns when all members have called it
@@ -125,11 +125,10 @@ class Schedule {
     for (std::size_t i = phase.begin; i < phase.end; ++i) settle(list_[i]);
   }
 
-  std::vector<std::uint32_t> list_;
-  std::vector<std::size_t> before_;  // points before each group in the list; at the end, all points
-  std::vector<std::size_t>
-      chunks_;  // first group of each chunk in the list; at the end, their number
-  std::vector<Phase> phases_;
+  List<std::uint32_t> list_;
+  List<std::size_t> before_;  // points before each group in the list; at the end, all points
+  List<std::size_t> chunks_;  // first group of each chunk in the list; at the end, their number
+  List<Phase> phases_;
   std::size_t serial_ = 0;  // first group without a phase, in the list
 };
 

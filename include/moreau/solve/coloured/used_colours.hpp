@@ -5,7 +5,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "moreau/core/list.hpp"
 
 namespace moreau::detail {
 
@@ -39,10 +40,10 @@ class UsedColours {
     return colours;
   }
   /// `Words` numbers per place, with a bit for each colour.
-  std::vector<std::uint64_t>& bits() { return bits_; }
+  List<std::uint64_t>& bits() { return bits_; }
 
  private:
-  std::vector<std::uint64_t> bits_;
+  List<std::uint64_t> bits_;
 };
 
 }  // namespace moreau::detail

@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 
 namespace moreau::detail {
@@ -158,15 +158,15 @@ class BlockFactorization {
   std::size_t count_ = 0;
   std::uint32_t slot_count_ = 0;
   double work_ = 0;
-  std::vector<std::array<std::uint32_t, 2>> edges_;
-  std::vector<std::uint32_t> slots_;   // of the block (i, j) or (j, i) in blocks_, or none
-  std::vector<std::uint32_t> place_;   // of each row in order_
-  std::vector<std::uint32_t> degree_;  // neighbours that are left
-  std::vector<std::uint32_t> order_, later_;
-  std::vector<std::size_t> first_later_;  // of each step, in later_
-  std::vector<unsigned char> gone_;
+  List<std::array<std::uint32_t, 2>> edges_;
+  List<std::uint32_t> slots_;   // of the block (i, j) or (j, i) in blocks_, or none
+  List<std::uint32_t> place_;   // of each row in order_
+  List<std::uint32_t> degree_;  // neighbours that are left
+  List<std::uint32_t> order_, later_;
+  List<std::size_t> first_later_;  // of each step, in later_
+  List<unsigned char> gone_;
   Block scaled_;
-  std::vector<Block> blocks_;
+  List<Block> blocks_;
 };
 
 }  // namespace moreau::detail

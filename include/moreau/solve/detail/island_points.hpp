@@ -16,9 +16,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/motion/mobility.hpp"
@@ -252,11 +252,11 @@ class IslandPoints {
     return by_root;
   }
 
-  std::vector<Point> points_;
-  std::vector<Root> roots_;
-  std::vector<double> speeds_;
-  std::vector<std::uint32_t> bodies_, number_;
-  std::vector<std::array<std::uint32_t, 2>> edges_;
+  List<Point> points_;
+  List<Root> roots_;
+  List<double> speeds_;
+  List<std::uint32_t> bodies_, number_;
+  List<std::array<std::uint32_t, 2>> edges_;
   bool has_smooth_ = false;
   // Of the last point: its face, normal and bodies in the problem.
   std::uint32_t faces_ = 0;

@@ -10,9 +10,9 @@
 #include <cstring>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/island_newton.hpp"
@@ -294,10 +294,10 @@ class IslandSolver {
   bool made_even_ = false;  // see made_even()
   ContactIslands islands_;
   Newton newton_;
-  std::vector<Small> small_;
-  std::vector<Impulse> saved_;
-  std::vector<unsigned char> moved_;                     // by the direct method, one per body
-  std::vector<typename Operator::Space::Twist> motion_;  // change of the velocity, where moved_
+  List<Small> small_;
+  List<Impulse> saved_;
+  List<unsigned char> moved_;                     // by the direct method, one per body
+  List<typename Operator::Space::Twist> motion_;  // change of the velocity, where moved_
 };
 
 }  // namespace moreau::detail

@@ -11,9 +11,9 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/solve/detail/block_factorization.hpp"
 #include "moreau/solve/detail/island_points.hpp"
 #include "moreau/solve/detail/sliding_face.hpp"
@@ -417,16 +417,16 @@ class ProximalStep {
 
   Points points_;
   int steps_ = 0;
-  double common_ = 0;  // in place of w, > 0 [1/kg]; 0: each contact has its own
-  std::vector<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
-  std::vector<double> lift_;                   // sigma [m/s]
-  bool has_limits_ = false;                    // of friction, in place of lifts
-  double stopped_ = 1;                         // see stopped()
-  double closed_ = 0;          // contacts that are not faster apart are closed [m/s]
-  std::vector<double> limit_;  // mu r_n [N s]
-  std::vector<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
-  std::vector<Coordinates> y_;                                    // of the centre
-  std::vector<Coordinates> next_, trial_, f_, direction_;
+  double common_ = 0;                   // in place of w, > 0 [1/kg]; 0: each contact has its own
+  List<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
+  List<double> lift_;                   // sigma [m/s]
+  bool has_limits_ = false;             // of friction, in place of lifts
+  double stopped_ = 1;                  // see stopped()
+  double closed_ = 0;                   // contacts that are not faster apart are closed [m/s]
+  List<double> limit_;                  // mu r_n [N s]
+  List<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
+  List<Coordinates> y_;                                    // of the centre
+  List<Coordinates> next_, trial_, f_, direction_;
   BlockFactorization<S::dofs> matrix_;
   Block block_;
 };

@@ -20,6 +20,7 @@
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
@@ -77,7 +78,7 @@ class Assembly {
   /// Finds out whether grains can be removed; changes nothing that anyone but remove_grains() sees.
   /// @returns one entry per body: whether it is one of these grains
   /// @throws std::invalid_argument for a body that is not a grain, or one that is listed twice
-  const std::vector<unsigned char>& mark(std::span<const BodyId> grains, const char* function) {
+  const List<unsigned char>& mark(std::span<const BodyId> grains, const char* function) {
     marked_.assign(bodies_.size(), 0);
     for (const BodyId grain : grains) {
       number_of_grain(grain, function);
@@ -311,18 +312,18 @@ class Assembly {
       free_.push_back(removed.value);
   }
 
-  std::deque<ShapeT> shapes_;        // addresses stay valid as shapes are added
-  std::vector<Grain> grains_;        // ascending by body
-  std::vector<BodyId> grain_ids_;    // the body of each element of grains_
-  std::vector<std::uint32_t> free_;  // indices that removed grains have left, descending
-  std::vector<unsigned char> marked_;
-  std::vector<BodyId> walls_;
+  std::deque<ShapeT> shapes_;  // addresses stay valid as shapes are added
+  List<Grain> grains_;         // ascending by body
+  List<BodyId> grain_ids_;     // the body of each element of grains_
+  List<std::uint32_t> free_;   // indices that removed grains have left, descending
+  List<unsigned char> marked_;
+  List<BodyId> walls_;
   std::vector<CylinderBody<S>> cylinders_;
   std::vector<MeshBody<S>> meshes_;
   Bodies<S> bodies_;
   bool changed_ = false, any_placed_ = false, overlaps_allowed_ = false;
-  std::vector<unsigned char> placed_;  // one per body: whether it was placed since the last step
-  std::vector<Pose<S>> kept_poses_;
+  List<unsigned char> placed_;  // one per body: whether it was placed since the last step
+  List<Pose<S>> kept_poses_;
   Scalar step_ = 0;
 };
 

@@ -16,10 +16,10 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
@@ -171,12 +171,12 @@ class Attraction {
     angular<S>(free) += root.angular * (root.angular * S::moment(lever, pull));
   }
 
-  std::vector<Scalar> pulls_;         // one per contact: impulse of the attraction [N s]
-  std::vector<Scalar> pulls_before_;  // one per contact of the step before: the attraction [N]
-  ContactsOf<Law, S> pushes_;         // see pushes_before()
-  std::vector<Twist> changes_;        // one per body: by change()
-  std::vector<Twist> by_impulses_;    // one per body: by find_changes()
-  std::vector<typename Sums::Twist> momenta_;  // one per body: by the impulses
+  List<Scalar> pulls_;                  // one per contact: impulse of the attraction [N s]
+  List<Scalar> pulls_before_;           // one per contact of the step before: the attraction [N]
+  ContactsOf<Law, S> pushes_;           // see pushes_before()
+  List<Twist> changes_;                 // one per body: by change()
+  List<Twist> by_impulses_;             // one per body: by find_changes()
+  List<typename Sums::Twist> momenta_;  // one per body: by the impulses
 };
 
 /// Under a law without attraction: does nothing.

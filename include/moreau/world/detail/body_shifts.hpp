@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -71,7 +71,7 @@ class BodyShifts {
     std::size_t body;
     Pose<S> pose;  // before apply()
   };
-  std::vector<Unshifted> unshifted_;  // the bodies whose shift is not zero
+  List<Unshifted> unshifted_;  // the bodies whose shift is not zero
 };
 
 }  // namespace moreau::detail

@@ -30,6 +30,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
@@ -159,7 +160,7 @@ class BondList {
   }
   /// The attraction of contacts: the tensile strength of bonds that is left [N].
   void attractions(const Materials<Law>& materials, const ContactsOf<Law, S>& contacts,
-                   std::vector<Scalar>& forces) const {
+                   List<Scalar>& forces) const {
     forces.assign(contacts.size(), 0);
     for_each([&](std::size_t i, std::size_t c) {
       forces[c] =
@@ -387,13 +388,13 @@ class BondList {
   std::vector<Bond<S>> bonds_;
   std::vector<Breakage> breakages_;
   // Of the step.
-  std::vector<std::size_t> contact_of_;  // of each bond, or none
-  std::vector<BondPlace<S>> places_;     // of each bond
-  std::vector<Row> drifts_;              // of each bond: the correction in its offset, see offset()
-  std::vector<unsigned char> broken_;    // of each bond
-  std::vector<Yield> yields_;            // of each bond
-  std::vector<Softening> softening_;     // of each bond
-  std::vector<Row> hidden_;
+  List<std::size_t> contact_of_;  // of each bond, or none
+  List<BondPlace<S>> places_;     // of each bond
+  List<Row> drifts_;              // of each bond: the correction in its offset, see offset()
+  List<unsigned char> broken_;    // of each bond
+  List<Yield> yields_;            // of each bond
+  List<Softening> softening_;     // of each bond
+  List<Row> hidden_;
   ContactsOf<Law, S> merged_;
   std::size_t new_breakages_ = 0;
 };

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -66,7 +66,7 @@ class Bridges {
     return bridged;
   }
 
-  std::vector<unsigned char> gone_;  // one per contact
+  List<unsigned char> gone_;  // one per contact
 };
 
 /// Which contacts have a bridge in this step, while their variants are carried over from the step before.
@@ -88,7 +88,7 @@ class BridgeBits {
   }
 
  private:
-  std::vector<unsigned char> bridged_;  // one per contact
+  List<unsigned char> bridged_;  // one per contact
 };
 
 /// In place of the bridges of a law that has none.
@@ -101,7 +101,7 @@ struct NoBridges {
 /// @param forces out: one per contact
 template <class S, class Law>
 void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
-                 const ContactsOf<Law, S>& contacts, std::vector<typename S::Scalar>& forces) {
+                 const ContactsOf<Law, S>& contacts, List<typename S::Scalar>& forces) {
   forces.resize(contacts.size());
   if constexpr (BridgingLaw<Law, S>) {
     for (std::size_t first = 0, last; first < contacts.size(); first = last) {

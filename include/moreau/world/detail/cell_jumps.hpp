@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -121,7 +121,7 @@ class CellJumps {
     return transposed_product(contact.frame, product(rate, between));
   }
 
-  std::vector<Vector> jumps_;  // one per contact
+  List<Vector> jumps_;  // one per contact
 };
 
 }  // namespace moreau::detail

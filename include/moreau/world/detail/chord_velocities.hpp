@@ -51,9 +51,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -280,8 +280,8 @@ class ChordVelocities {
     return sum + (along_normal - normal.dot(sum)) * normal;
   }
 
-  std::vector<unsigned char> turning_;  // one per body; empty if there is none
-  std::vector<Vector> velocities_;      // one per contact
+  List<unsigned char> turning_;  // one per body; empty if there is none
+  List<Vector> velocities_;      // one per contact
 };
 
 /// Adds the second-order terms of contact c to its free relative velocity. A normal term that pushes is at

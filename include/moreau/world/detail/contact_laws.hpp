@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -160,7 +160,7 @@ class ContactLaws {
   }
 
   RestitutionLimit<S, Law> limit_;
-  std::vector<Vector> before_;  // one per contact
+  List<Vector> before_;  // one per contact
 };
 
 }  // namespace moreau::detail

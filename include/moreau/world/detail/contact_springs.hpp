@@ -7,12 +7,12 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
@@ -265,12 +265,12 @@ class ContactSprings {
     for (const Energy& energy : energies_) energy_.add(energy);
   }
 
-  std::vector<Row> compliance_;   // c [1/kg]
-  std::vector<Row> relaxation_;   // what the memory adds to b [m/s]
-  std::vector<double> before_;    // energy before the step, one per contact [J]
-  Scalar last_step_ = 0;          // h of the step before [s]
-  std::vector<Energy> energies_;  // one per contact, after the step before
-  Energy energy_;                 // their sum
+  List<Row> compliance_;   // c [1/kg]
+  List<Row> relaxation_;   // what the memory adds to b [m/s]
+  List<double> before_;    // energy before the step, one per contact [J]
+  Scalar last_step_ = 0;   // h of the step before [s]
+  List<Energy> energies_;  // one per contact, after the step before
+  Energy energy_;          // their sum
 };
 
 }  // namespace moreau::detail

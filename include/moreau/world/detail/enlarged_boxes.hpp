@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
@@ -44,7 +45,7 @@ class EnlargedBoxes {
   }
 
  private:
-  std::vector<unsigned char> has_pair_;  // one per grain
+  List<unsigned char> has_pair_;  // one per grain
 };
 
 }  // namespace moreau::detail

@@ -9,13 +9,13 @@
 #include <cstddef>
 #include <span>
 #include <tuple>
-#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/effective_mass.hpp"
 #include "moreau/contact/effective_radius.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
@@ -108,9 +108,9 @@ class ForceDynamics {
   }
 
   Integrator integrator_;
-  std::vector<Twist> loads_;           ///< of the contacts on every body
-  std::vector<Scalar> masses_;         ///< effective mass of every contact [kg]
-  std::vector<Vector> memory_, next_;  ///< the law's, one per contact, in its frame
+  List<Twist> loads_;           ///< of the contacts on every body
+  List<Scalar> masses_;         ///< effective mass of every contact [kg]
+  List<Vector> memory_, next_;  ///< the law's, one per contact, in its frame
 };
 
 }  // namespace detail

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/reduce.hpp"
 
@@ -100,8 +101,7 @@ class alignas(64) FoundContacts {
   /// Makes room for the contacts of all grains.
   /// @param runs  one per grain
   /// @param place out: index of the first contact of each grain; at the end, their number
-  static void make_room(const std::vector<Run>& runs, std::vector<std::size_t>& place,
-                        DetectedContacts<S>& out) {
+  static void make_room(const List<Run>& runs, List<std::size_t>& place, DetectedContacts<S>& out) {
     place.assign(1, 0);
     for (const Run& run : runs) place.push_back(place.back() + run.points);
     out.points.resize(place.back());
@@ -154,7 +154,7 @@ class alignas(64) FoundContacts {
 
   void add_all(const auto& a, const auto& b) {
     const auto first = static_cast<std::uint32_t>(points_.size());
-    points_.insert(points_.end(), manifold_.points.begin(), manifold_.points.end());
+    points_.append(manifold_.points.data(), manifold_.points.size());
     pairs_.push_back({b.body.value, manifold_.part_a, manifold_.part_b, first,
                       static_cast<std::uint32_t>(points_.size()), manifold_.contact_class,
                       manifold_.normal, a.placed.center(), b.placed.center()});
@@ -191,9 +191,9 @@ class alignas(64) FoundContacts {
   Manifold<S> manifold_;
   Reduction reduction_;
   bool few_ = true;
-  std::vector<KeptPoint> kept_;
-  std::vector<Pair> pairs_;
-  std::vector<ManifoldPoint<S>> points_;
+  List<KeptPoint> kept_;
+  List<Pair> pairs_;
+  List<ManifoldPoint<S>> points_;
   std::size_t run_pairs_ = 0, run_points_ = 0;  // first ones of the present grain
   std::size_t previous_ = 0;  // first contact of the present grain in the step before
   std::size_t touching_ = 0;

@@ -24,11 +24,11 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/law/concepts.hpp"
@@ -378,13 +378,13 @@ class ImpulseDynamics {
   CellEquation<S, Law> cell_;  // of a periodic cell that deforms
 
   // One entry per body.
-  std::vector<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
+  List<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
   // Velocities before the step, with the spins of momentum_ in the configuration of the contacts: the inertia turns.
-  std::vector<Twist> before_;
-  std::vector<Twist> free_, after_;  // velocities without and with the impulses
-  std::vector<Twist> unattracted_;   // free_ without the attraction of the law, if it has one
-  std::vector<MobilityRoot<S>> roots_;
-  std::vector<unsigned char> touched_;  // by contacts
+  List<Twist> before_;
+  List<Twist> free_, after_;  // velocities without and with the impulses
+  List<Twist> unattracted_;   // free_ without the attraction of the law, if it has one
+  List<MobilityRoot<S>> roots_;
+  List<unsigned char> touched_;  // by contacts
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
   [[no_unique_address]] std::conditional_t<bridging, BridgeBits<S, Law>, NoBridges> bridges_;
 };

@@ -26,10 +26,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -300,11 +300,11 @@ class InternalEdges {
     }
   }
 
-  std::vector<View> views_;
-  std::vector<Found> found_;
-  std::vector<std::optional<Found>> found_of_;  // one per view of the group that is compared
-  std::vector<unsigned char> is_replaced_;      // the same
-  std::vector<unsigned char> gone_;             // one per contact
+  List<View> views_;
+  List<Found> found_;
+  List<std::optional<Found>> found_of_;  // one per view of the group that is compared
+  List<unsigned char> is_replaced_;      // the same
+  List<unsigned char> gone_;             // one per contact
 };
 
 }  // namespace moreau::detail

@@ -25,6 +25,7 @@
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/broad/periodic_images.hpp"
@@ -146,7 +147,7 @@ class NearPairs {
   }
 
   PeriodicCell<S> cell_;
-  std::vector<Aabb<S>> fat_;  // the enlarged boxes, one per grain
+  List<Aabb<S>> fat_;  // the enlarged boxes, one per grain
   BroadPhaseT broad_phase_;
   EnlargedBoxes<S> enlarged_;
   PairFilter filter_;

@@ -17,9 +17,9 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/parallel/team.hpp"
@@ -72,7 +72,7 @@ class OverlapSweeps {
   /// @param target     function: depth -> what the change of the gap must not be below [m]
   /// @param shared     bodies that other processes share; null: none
   void run(int sweeps, const auto& op, std::span<const Contact<S>> contacts,
-           std::vector<Candidate>& candidates, Scalar guess, Scalar longest, const auto& target,
+           List<Candidate>& candidates, Scalar guess, Scalar longest, const auto& target,
            const Team& team, SharedBodies* shared) {
     for (int k = 0; k < sweeps; ++k) {
       if (k <= 2 || k == 4 || k == 8 || k == 32) {
@@ -113,8 +113,8 @@ class OverlapSweeps {
     }
   }
 
-  void take(const auto& op, std::span<const Contact<S>> contacts,
-            std::vector<Candidate>& candidates, const auto& target, const Team& team) {
+  void take(const auto& op, std::span<const Contact<S>> contacts, List<Candidate>& candidates,
+            const auto& target, const Team& team) {
     level_.assign(moves_.size(), 0);
     levels_ = 0;
     taken_count_ = 0;
@@ -190,14 +190,14 @@ class OverlapSweeps {
     std::size_t row;
   };
 
-  std::vector<unsigned char> moves_;  // one per body: whether impulses move it
-  std::vector<Twist> shifts_;         // one per body, and zero
-  std::vector<Scalar> reach_;         // one per body [m]
-  std::vector<std::uint32_t> level_;  // one per body: above its rows in this batch
-  std::vector<std::size_t> next_;     // of each level of a batch: its rows, then the next free row
-  std::uint32_t levels_ = 0;          // of this batch
-  std::vector<Taken> taken_;          // the first taken_count_: of this batch
-  std::vector<Row> rows_;             // the first row_count_
+  List<unsigned char> moves_;  // one per body: whether impulses move it
+  List<Twist> shifts_;         // one per body, and zero
+  List<Scalar> reach_;         // one per body [m]
+  List<std::uint32_t> level_;  // one per body: above its rows in this batch
+  List<std::size_t> next_;     // of each level of a batch: its rows, then the next free row
+  std::uint32_t levels_ = 0;   // of this batch
+  List<Taken> taken_;          // the first taken_count_: of this batch
+  List<Row> rows_;             // the first row_count_
   std::size_t taken_count_ = 0, row_count_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "moreau/core/erase_at.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/merge_join.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
@@ -103,12 +104,12 @@ class PairCaches {
     carried.clear();
     if (!collide(a, b, known, out, caches_[p])) return false;
     carried.store(now, out, known);
-    std::erase_if(out.points, [&](const auto& point) { return !(point.gap <= margin); });
+    erase_if(out.points, [&](const auto& point) { return !(point.gap <= margin); });
     return !out.points.empty();
   }
 
-  std::vector<PairCache<S>> caches_, old_;  // one per pair of the list
-  std::vector<CarriedContact<S>> carried_;  // the same; empty if none are carried along
+  List<PairCache<S>> caches_, old_;  // one per pair of the list
+  List<CarriedContact<S>> carried_;  // the same; empty if none are carried along
 };
 
 /// The near parts and the caches of pairs of compound grains.
@@ -219,18 +220,17 @@ class PairCaches<ShapeT> {
   friend struct moreau::SerializationAccess;
   auto serialized_members() { return std::tie(parts_, ends_, caches_, boxes_, box_ends_); }
 
-  static std::size_t begin(const std::vector<std::uint64_t>& ends, std::size_t list) {
+  static std::size_t begin(const List<std::uint64_t>& ends, std::size_t list) {
     return list == 0 ? 0 : ends[list - 1];
   }
-  static bool are_ends(const std::vector<std::uint64_t>& ends, std::size_t lists,
-                       std::size_t items) {
+  static bool are_ends(const List<std::uint64_t>& ends, std::size_t lists, std::size_t items) {
     return ends.size() == lists && std::is_sorted(ends.begin(), ends.end()) &&
            (ends.empty() ? 0 : ends.back()) == items;
   }
   /// Erases lists of items.
   /// @param ends  one past the last item of each list
   /// @param erase is given a function: item -> whether it is erased
-  void erase_lists(std::vector<std::uint64_t>& ends, const auto& is_gone, const auto& erase) {
+  void erase_lists(List<std::uint64_t>& ends, const auto& is_gone, const auto& erase) {
     gone_.clear();
     for (std::size_t list = 0; list < ends.size(); ++list)
       gone_.resize(ends[list], is_gone(list) ? 1 : 0);
@@ -271,12 +271,12 @@ class PairCaches<ShapeT> {
     }
   }
 
-  std::vector<IndexPair> parts_, old_parts_;    // near parts of all pairs, sorted for each pair
-  std::vector<std::uint64_t> ends_, old_ends_;  // of each pair: one past its last element of parts_
-  std::vector<PairCache<S>> caches_, old_;      // one per element of parts_
-  std::vector<Aabb<S>> boxes_;                  // of the parts of all grains, inflated
-  std::vector<std::uint64_t> box_ends_;  // of each grain: one past its last element of boxes_
-  std::vector<unsigned char> gone_;
+  std::vector<IndexPair> parts_, old_parts_;  // near parts of all pairs, sorted for each pair
+  List<std::uint64_t> ends_, old_ends_;       // of each pair: one past its last element of parts_
+  List<PairCache<S>> caches_, old_;           // one per element of parts_
+  List<Aabb<S>> boxes_;                       // of the parts of all grains, inflated
+  List<std::uint64_t> box_ends_;              // of each grain: one past its last element of boxes_
+  List<unsigned char> gone_;
 };
 
 }  // namespace moreau::detail

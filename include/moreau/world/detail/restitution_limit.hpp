@@ -81,10 +81,10 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
@@ -264,7 +264,7 @@ class RestitutionLimit {
   }
   /// @param without share of the restitution that the operator lacks, 0 or 1
   void measure(const Problem& problem, std::span<const Row> impulses, const auto& springs,
-               const auto& forced, Scalar without, std::vector<State>& states) const {
+               const auto& forced, Scalar without, List<State>& states) const {
     states.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       State& state = states[c];
@@ -439,13 +439,13 @@ class RestitutionLimit {
     return sets_.find(bodies.is_prescribed(b) ? a : b);
   }
 
-  bool bounces_ = false;                 // some contact has a restitution in this step
-  Scalar negligible_ = 0;                // velocity of bodies at rest [m/s]
-  std::vector<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
-  std::vector<Row> aside_;  // one per contact, if the law has a tangential restitution [m/s]
-  std::vector<State> bouncing_, resting_;  // one per contact: with restitution, without
-  DisjointSets sets_;                      // of bodies: islands
-  std::vector<Island> islands_;            // one per body: that of a root counts
+  bool bounces_ = false;          // some contact has a restitution in this step
+  Scalar negligible_ = 0;         // velocity of bodies at rest [m/s]
+  List<Scalar> offset_, bounce_;  // one per contact: all of the offset, its part by e [m/s]
+  List<Row> aside_;               // one per contact, if the law has a tangential restitution [m/s]
+  List<State> bouncing_, resting_;  // one per contact: with restitution, without
+  DisjointSets sets_;               // of bodies: islands
+  List<Island> islands_;            // one per body: that of a root counts
 };
 
 }  // namespace moreau::detail

@@ -12,6 +12,7 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/world/assign_laws.hpp"
 #include "moreau/world/detail/step_context.hpp"
@@ -135,7 +136,7 @@ MOREAU_INLINED inline bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::d
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 void Simulation<ShapeT, Law, Integrator, Broad, Solver>::remove(std::span<const BodyId> grains,
                                                                 const char* function) {
-  const std::vector<unsigned char>& removed = assembly_.mark(grains, function);
+  const List<unsigned char>& removed = assembly_.mark(grains, function);
   lost_.clear();
   for (const Contact<S>& contact : contacts_.points)
     lost_.push_back(removed[contact.a] != 0 || removed[contact.b] != 0);

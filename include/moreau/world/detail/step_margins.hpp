@@ -35,9 +35,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
@@ -174,9 +174,9 @@ class StepMargins {
     return std::min(whole, whole / 10 + 2 * approach);
   }
 
-  std::vector<Scalar> near_;      // bound of each pair [m]; < 0: its boxes are far apart
-  std::vector<Scalar> of_grain_;  // largest of the bounds of its pairs [m]
-  std::vector<Scalar> reach_;     // of each grain, see ApproachBounds [m]
+  List<Scalar> near_;      // bound of each pair [m]; < 0: its boxes are far apart
+  List<Scalar> of_grain_;  // largest of the bounds of its pairs [m]
+  List<Scalar> reach_;     // of each grain, see ApproachBounds [m]
   bool fitted_ = false;
 };
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/z_curve.hpp"
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/parallel/team.hpp"
@@ -89,8 +89,8 @@ class VisitOrder {
   }
 
   SpatialOrder<S> order_;
-  std::vector<std::size_t> first_pair_;  // of each grain; at the end, the number of pairs
-  std::vector<std::size_t> work_;        // grains and pairs before each place
+  List<std::size_t> first_pair_;  // of each grain; at the end, the number of pairs
+  List<std::size_t> work_;        // grains and pairs before each place
   bool is_valid_ = false;
 };
 

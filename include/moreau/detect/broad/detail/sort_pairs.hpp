@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "moreau/core/list.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
 namespace moreau::detail {
@@ -32,7 +33,7 @@ class PairSorter {
     std::sort(sorted_.begin() + begin, sorted_.begin() + end);
   }
 
-  std::vector<std::uint32_t> begin_, next_;
+  List<std::uint32_t> begin_, next_;
   std::vector<IndexPair> sorted_;
 };
 
