@@ -23,7 +23,7 @@ struct Entry {
 TEST_CASE("sort_by_key sorts, and keeps the order of equal keys") {
   std::mt19937_64 random(1);
   for (int round = 0; round < 100; ++round) {
-    std::vector<Entry> entries, scratch;
+    moreau::List<Entry> entries, scratch;
     const auto count = static_cast<std::uint32_t>(random() % 300);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint64_t wide = random() % 5 << 50 | random() % 3 << 20 | random() % 300;

@@ -40,7 +40,7 @@ struct Turns final : TeamThreads {
 TEST_CASE("every group with points is visited once, whatever the size of the team") {
   std::mt19937_64 random(1);
   for (int round = 0; round < 100; ++round) {
-    std::vector<Group> groups;
+    moreau::List<Group> groups;
     std::vector<std::uint32_t> points;
     for (std::uint64_t k = random() % 80; k > 0; --k) {
       constexpr std::uint32_t phases[] = {0, 1, 2, FirstFitColouring::colours, Group::serial};

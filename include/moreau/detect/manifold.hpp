@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/core/space.hpp"
 
 namespace moreau {
@@ -140,8 +141,7 @@ struct Manifold {
   }
   /// Sorts the points by feature.
   void sort() {
-    std::sort(points.begin(), points.end(),
-              [](const auto& p, const auto& q) { return p.feature < q.feature; });
+    sort_items(points, [](const auto& p, const auto& q) { return p.feature < q.feature; });
   }
   /// Turns the manifold of the pair (a, b) into the manifold of the pair (b, a).
   void swap_sides() {

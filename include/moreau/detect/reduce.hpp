@@ -19,6 +19,7 @@
 #include <span>
 
 #include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/detect/manifold.hpp"
 
 namespace moreau {
@@ -207,7 +208,7 @@ inline bool carries(std::span<const KeptPoint> previous) {
 /// Removes all points but the chosen ones.
 template <class S>
 void keep_points(Manifold<S>& manifold, std::span<std::size_t> chosen) {
-  std::sort(chosen.begin(), chosen.end());
+  sort_items(chosen);
   const auto end = std::unique(chosen.begin(), chosen.end());
   const auto count = static_cast<std::size_t>(end - chosen.begin());
   for (std::size_t k = 0; k < count; ++k) manifold.points[k] = manifold.points[chosen[k]];

@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "moreau/core/sort_items.hpp"
 #include "moreau/shape/detail/face_merging.hpp"
 #include "moreau/shape/detail/hull_input.hpp"
 #include "moreau/shape/detail/orientation.hpp"
@@ -147,7 +148,7 @@ std::vector<std::vector<std::uint32_t>> convex_hull(
     for (std::uint32_t& v : face) v = input.labels[v];
     detail::begin_with_smallest(face);
   }
-  std::sort(faces.begin(), faces.end());
+  sort_items(faces);
   return faces;
 }
 

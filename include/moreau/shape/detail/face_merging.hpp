@@ -25,6 +25,7 @@
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/shape/box_tree.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
@@ -42,7 +43,7 @@ inline List<std::array<std::uint32_t, 2>> directed_edges(const FaceList& faces) 
       edges.push_back({face[k], face[(k + 1) % face.size()]});
     }
   }
-  std::sort(edges.begin(), edges.end());
+  sort_items(edges);
   return edges;
 }
 
@@ -71,7 +72,7 @@ class FaceMerging {
     for (const Eigen::Vector3d& area : area_) size.push_back(area.squaredNorm());
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    sort_items(order, [&](std::uint32_t a, std::uint32_t b) {
       return size[a] > size[b] || (size[a] == size[b] && a < b);
     });
     group_.assign(triangles.size(), none);
@@ -150,7 +151,7 @@ class FaceMerging {
       }
     }
     if (next.empty()) return std::nullopt;
-    std::sort(next.begin(), next.end());
+    sort_items(next);
     std::vector<std::uint32_t> cycle{next.front().first};
     while (cycle.size() <= next.size()) {
       const auto at = std::lower_bound(next.begin(), next.end(), std::pair(cycle.back(), 0U));

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "moreau/core/sort_items.hpp"
 #include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {
@@ -144,7 +145,7 @@ struct HullInput {
     for (const Vector& x : given) scaled.push_back(in_units(x.template cast<double>()));
     std::vector<std::uint32_t> order(given.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    sort_items(order, [&](std::uint32_t a, std::uint32_t b) {
       const Point &x = scaled[a], &y = scaled[b];
       for (int k = 0; k < Dim; ++k)
         if (x[k] != y[k]) return x[k] < y[k];

@@ -35,6 +35,7 @@
 
 #include "moreau/core/list.hpp"
 #include "moreau/core/neighbour_cells.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/shape/detail/orientation.hpp"
 
 namespace moreau::detail {
@@ -152,7 +153,7 @@ class TriangleHull {
     for (const std::uint32_t q : orphans_)
       look_for_triangle(q, std::span<const std::uint32_t>(slots).first(rim_.size()));
     slots.erase(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(rim_.size()));
-    std::sort(slots.begin(), slots.end(), std::greater<>());
+    sort_items(slots, std::greater<>());
     for (const std::uint32_t hole : slots) move_last_to(hole);
   }
 
@@ -167,7 +168,7 @@ class TriangleHull {
         visible_.push_back(t);
       }
     }
-    std::sort(visible_.begin(), visible_.end());
+    sort_items(visible_);
   }
 
   void find_rim() {

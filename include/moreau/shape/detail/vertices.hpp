@@ -14,6 +14,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/sort_items.hpp"
 
 namespace moreau {
 
@@ -93,7 +94,7 @@ typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
     }
   }
   const T rounding = 16 * std::numeric_limits<T>::epsilon() * size;
-  std::sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
+  sort_items(order, [](const Entry& a, const Entry& b) {
     return a.along != b.along ? a.along < b.along : a.row < b.row;
   });
   T least = std::numeric_limits<T>::infinity();

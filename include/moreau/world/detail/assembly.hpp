@@ -25,6 +25,7 @@
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/mesh/mesh_wall.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/shape/concepts.hpp"
@@ -95,7 +96,7 @@ class Assembly {
       bodies_.remove(grain.index());
       add_free(bodies_.id[grain.index()]);
     }
-    std::sort(free_.begin(), free_.end(), std::greater<>());
+    sort_items(free_, std::greater<>());
     const auto is_gone = [&](std::size_t k) { return marked_[grains_[k].body.index()] != 0; };
     erase_at(grain_ids_, is_gone);
     erase_at(grains_, is_gone);

@@ -30,6 +30,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -111,7 +112,7 @@ class InternalEdges {
       add_views(first, last, false, key.a, contacts);
       add_views(first, last, true, key.b, contacts);
     }
-    std::sort(views_.begin(), views_.end());
+    sort_items(views_);
   }
   /// Whether two contact points belong to one manifold.
   static bool are_of_one(std::uint32_t c, std::uint32_t d, const DetectedContacts<S>& contacts) {

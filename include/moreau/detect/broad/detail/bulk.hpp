@@ -11,6 +11,7 @@
 #include <span>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/sort_items.hpp"
 
 namespace moreau::detail {
 
@@ -53,7 +54,7 @@ Aabb<S> middle_of(std::span<const Aabb<S>> boxes) {
   Aabb<S> middle;
   for (int axis = 0; axis < S::dim && count > 0; ++axis) {
     auto& x = center[std::size_t(axis)];
-    std::sort(x.begin(), x.begin() + std::ptrdiff_t(count));
+    sort_items(std::span(x).first(count));
     middle.lower[axis] = x[count / 8];
     middle.upper[axis] = x[count - 1 - count / 8];
   }

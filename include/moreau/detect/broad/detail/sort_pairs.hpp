@@ -2,13 +2,14 @@
 // Sorts pairs of indices, for the broad phases.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/detect/broad_phase.hpp"
 
 namespace moreau::detail {
@@ -30,7 +31,7 @@ class PairSorter {
 
  private:
   void sort_range(std::uint32_t begin, std::uint32_t end) {
-    std::sort(sorted_.begin() + begin, sorted_.begin() + end);
+    sort_items(std::span(sorted_).subspan(begin, end - begin));
   }
 
   List<std::uint32_t> begin_, next_;
