@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <doctest/doctest.h>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "moreau/core/list.hpp"
+#include "moreau/core/sort_items.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/z_curve.hpp"
 
@@ -65,4 +68,68 @@ TEST_CASE_TEMPLATE("neighbours in space follow one another", S, moreau::Space<2>
   CHECK(sum / count < (S::dim == 2 ? 0.06 : 0.2));
   order.assign(std::vector<moreau::Aabb<S>>(3, boxes[0]));  // all at one place
   CHECK(order.size() == 3);
+}
+
+TEST_CASE("a list holds its elements as a std::vector does") {
+  std::mt19937_64 random(2);
+  moreau::List<Entry> list;
+  std::vector<Entry> vector;
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t size = vector.size(), at = size == 0 ? 0 : random() % size;
+    const Entry entry{random() % 5, static_cast<std::uint32_t>(round)};
+    switch (random() % 9) {
+      case 0:
+        list.resize(size + 3), vector.resize(size + 3);
+        break;
+      case 1:
+        list.resize(at), vector.resize(at);
+        break;
+      case 2:
+        list.resize(size + 5, entry), vector.resize(size + 5, entry);
+        break;
+      case 3:
+        list.insert(list.begin() + at, entry),
+            vector.insert(vector.begin() + std::ptrdiff_t(at), entry);
+        break;
+      case 4:
+        list.erase(list.begin() + at, list.end());
+        vector.erase(vector.begin() + std::ptrdiff_t(at), vector.end());
+        break;
+      case 5: {
+        const auto is_gone = [&](const Entry& item) { return item.key == entry.key; };
+        CHECK(erase_if(list, is_gone) == std::erase_if(vector, is_gone));
+        break;
+      }
+      case 6: {
+        moreau::List<Entry> copy = list, other;
+        other = copy;
+        list = std::move(other);
+        break;
+      }
+      default:
+        list.push_back(size > 0 ? list[at] : entry);  // an element of the list itself
+        vector.push_back(size > 0 ? Entry(vector[at]) : entry);
+    }
+    const std::vector<Entry> same = list;
+    REQUIRE(same == vector);
+  }
+  // Matrices that registers load are aligned, whatever the size of the list.
+  using Matrix = Eigen::Matrix<double, 4, 4>;
+  moreau::List<Matrix> matrices;
+  for (int k = 0; k < 40; ++k) matrices.push_back(k * Matrix::Identity());
+  CHECK(matrices == moreau::List<Matrix>(matrices));
+  CHECK(matrices[39](3, 3) == 39);
+  CHECK(reinterpret_cast<std::uintptr_t>(matrices.data()) % alignof(Matrix) == 0);
+}
+
+TEST_CASE("short and long lists are sorted") {
+  std::mt19937_64 random(3);
+  for (const std::size_t size : {0, 1, 2, 16, 17, 1000}) {
+    std::vector<std::uint64_t> items(size);
+    for (std::uint64_t& item : items) item = random() % (2 * size);
+    auto sorted = items;
+    std::sort(sorted.begin(), sorted.end());
+    moreau::sort_items(items);
+    CHECK(items == sorted);
+  }
 }

@@ -141,8 +141,9 @@ class List {
   }
   T* erase(const T* first, const T* last) {
     T* const to = data_ + (first - data_);
-    std::memmove(static_cast<void*>(to), static_cast<const void*>(last),
-                 std::size_t(end() - last) * sizeof(T));
+    const std::size_t left = std::size_t(end() - last);
+    if (left != 0)
+      std::memmove(static_cast<void*>(to), static_cast<const void*>(last), left * sizeof(T));
     size_ -= std::size_t(last - first);
     return to;
   }
