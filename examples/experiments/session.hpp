@@ -50,6 +50,7 @@ double cpu_seconds();
 struct Options {
   std::filesystem::path output = "experiments-output";
   std::vector<std::string> only;
+  std::string part;  ///< of the silo: only the cases whose names contain this
   bool quick = false;
   double hold = std::numeric_limits<double>::infinity();  ///< stop after this wall-clock time [s]
   int threads = 1;                                        ///< of the long runs
