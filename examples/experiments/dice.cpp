@@ -210,6 +210,7 @@ void dice(Session& session) {
         const Sample sample{one.faces, count, across, friction, shaking, seed};
         const std::string key = std::string(one.name) + " friction " + std::to_string(friction) +
                                 " count " + std::to_string(count) + " seed " + std::to_string(seed);
+        if (!session.wants(key)) continue;
         const Result start =
             session.once(key + " loose", [&](Run& piece) { return loose(piece, sample); });
         Fractions& fractions = all[{friction, one.faces}];

@@ -22,8 +22,10 @@ double height(const World& world) {
 struct Case {
   std::size_t balls;
   std::vector<std::uint64_t> seeds;
-  const char* file;  // of the published curves
+  const char* file;  // of the published curves; empty: there is none
   Numerics numerics;
+
+  std::string name() const { return std::to_string(balls) + " balls"; }
 };
 
 struct Outcome {
@@ -32,7 +34,7 @@ struct Outcome {
 };
 Outcome one_impact(Session& session, const Case& c, std::uint64_t seed, double until) {
   const int threads = session.options().threads;
-  const std::string name = std::to_string(c.balls) + " balls, bed " + std::to_string(seed);
+  const std::string name = c.name() + ", bed " + std::to_string(seed);
   const Numbers bed = settled_bed(session, {}, c.balls, seed);
   const Result result = session.once(name + ", impact " + c.numerics.text(), [&](Run& run) {
     World world = world_of(diameter, c.numerics, threads);
@@ -50,7 +52,8 @@ Outcome one_impact(Session& session, const Case& c, std::uint64_t seed, double u
 }
 
 void compare(Session& session, const Case& c, const std::vector<Outcome>& outcomes) {
-  const std::vector<Numbers> published = read_data(c.file);
+  const bool compared = *c.file != 0;
+  const std::vector<Numbers> published = compared ? read_data(c.file) : std::vector<Numbers>();
   Numbers mean;
   std::vector<Numbers> rows;
   Row row;
@@ -72,7 +75,7 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   std::vector<std::string> heads{"t [ms]", "mean [m]"};
   for (std::size_t k = 0; k < outcomes.size(); ++k) heads.push_back("bed " + std::to_string(k + 1));
   session.curve("impact_" + std::to_string(c.balls / 1000) + "k", heads, rows);
-  const std::string bed = std::to_string(c.balls) + " balls: ";
+  const std::string bed = c.name() + ": ";
   Numbers per_step, unsolved;
   for (const Outcome& one : outcomes) per_step.push_back(one.ms), unsolved.push_back(one.unsolved);
   row.published = "–";
@@ -83,6 +86,7 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   row.measured = mean_of(unsolved).value;
   session.row(row);
   for (const std::size_t code : {std::size_t(1), std::size_t(2)}) {
+    if (!compared) break;
     Numbers theirs, largest;
     for (const Numbers& line : published) theirs.push_back(line[code]);
     // LIGGGHTS' curve is 0.05 ms ahead.
@@ -116,18 +120,19 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   for (const Numbers& line : published)
     for (const std::size_t code : {std::size_t(0), std::size_t(1)})
       low[code] = std::min(low[code], 1000 * line[code + 1]);
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f (LIGGGHTS), %.1f (MUSEN)", low[0], low[1]);
+  const auto both = [&](double liggghts, double musen) -> std::string {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.1f (LIGGGHTS), %.1f (MUSEN)", liggghts, musen);
+    return compared ? text.data() : "–";
+  };
   row.figure = bed + "lowest height of the ball [mm]";
-  row.published = text.data();
+  row.published = both(low[0], low[1]);
   row.measured = mean_of(lowest).value;
   row.error = mean_of(lowest).error;
   row.verdict = "";
   session.row(row);
-  std::snprintf(text.data(), text.size(), "%.1f (LIGGGHTS), %.1f (MUSEN)",
-                1000 * published.back()[1], 1000 * published.back()[2]);
   row.figure = bed + "height at the end [mm]";
-  row.published = text.data();
+  row.published = compared ? both(1000 * published.back()[1], 1000 * published.back()[2]) : "–";
   row.measured = mean_of(end).value;
   row.error = mean_of(end).error;
   session.row(row);
@@ -139,13 +144,15 @@ void impact(Session& session) {
   using namespace impact_parts;
   const Numerics numerics{5e-5, 1e-3, 0.2};
   std::vector<Case> cases{{25000, {1, 2, 3}, "impact_25k.csv", numerics},
-                          {100000, {1}, "impact_100k.csv", numerics}};
+                          {100000, {1}, "impact_100k.csv", numerics},
+                          {50000, {1, 2, 3}, "", numerics}};
   if (session.quick()) {
     one_impact(session, {1000, {1}, "", numerics}, 1, 0.01);
     return;
   }
   bool complete = true;
   for (const Case& one : cases) {
+    if (!session.wants(one.name())) continue;
     std::vector<Outcome> outcomes;
     try {
       for (const std::uint64_t seed : one.seeds)

@@ -6,7 +6,7 @@
 //   held      a cube of 1 kg, pressed to a wall by 20 N, friction 1
 //   stack     two cubes on an incline of slope 0.3, friction 0.5, with mass ratios of 1e-3 to 1e3
 //   launched  a cube of 0.1 m on a floor with 6 m/s, friction 0.5: stops after v^2 / (2 mu g)
-//   points    a prism on 3, 4 and 8 points: starts to slide at mu m g
+//   points    a prism on 3, 4 and 8 points: held while 0.9 mu m g pushes it, starts to slide at mu m g
 //
 // Lengths go from 1 um to 10 m. The time step is a share of sqrt(L / g), L the size of the body.
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include <numbers>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "session.hpp"
@@ -191,21 +192,44 @@ Launch launched(double size, int floor, const Numerics& numerics) {
   return launch;
 }
 
+/// A prism on `corners` points; its weight [N].
+template <class Law>
+struct OnPoints {
+  moreau::Simulation<Polyhedron, Law> world;
+  double weight;
+};
+template <class Law>
+OnPoints<Law> prism_on(double size, int corners, int floor, const Numerics& numerics) {
+  constexpr double friction = 0.5;
+  std::vector<Vector> points;
+  for (int k = 0; k < corners; ++k)
+    for (const double z : {-0.2, 0.2}) {
+      const double angle = 2 * std::numbers::pi * k / corners + 0.1;
+      points.push_back(size * Vector(0.5 * std::cos(angle), 0.5 * std::sin(angle), z));
+    }
+  const Polyhedron prism((std::span<const Vector>(points)));
+  const double weight = prism.mass_properties(1000).mass * gravity;
+  auto world = world_of<Polyhedron>(0.4 * size, law_of<Law>(friction, weight, size), numerics);
+  world.add_grain(world.add_shape(prism), {Vector(0, 0, 0.2 * size)}, 1000);
+  add_floor(world, floor, -2 * size, 2 * size, 2 * size);
+  return {std::move(world), weight};
+}
+
+/// Creep of a prism that 0.9 of the force that starts to slide it pushes along a floor.
+template <class Law>
+double pushed(double size, int corners, int floor, const Numerics& numerics) {
+  auto [world, weight] = prism_on<Law>(size, corners, floor, numerics);
+  const Vector direction(std::cos(0.3), std::sin(0.3), 0);
+  world.set_force(world.grain(0), 0.9 * 0.5 * weight * direction);
+  return creep(world, size, numerics, direction);
+}
+
 /// The force along the floor at which a prism on `corners` points starts to slide, over mu m g, less 1.
 template <class Law>
 double start_of_sliding(int corners, int floor, double direction, const Numerics& numerics) {
   const double friction = 0.5, size = 0.1, h = numerics.step(size);
-  std::vector<Vector> points;
-  for (int k = 0; k < corners; ++k)
-    for (const double z : {-0.02, 0.02}) {
-      const double angle = 2 * std::numbers::pi * k / corners + 0.1;
-      points.push_back({0.5 * size * std::cos(angle), 0.5 * size * std::sin(angle), z});
-    }
-  const Polyhedron prism((std::span<const Vector>(points)));
-  const double mass = prism.mass_properties(1000).mass, weight = mass * gravity;
-  auto world = world_of<Polyhedron>(0.04, law_of<Law>(friction, weight, size), numerics);
-  const auto body = world.add_grain(world.add_shape(prism), {Vector(0, 0, 0.02)}, 1000);
-  add_floor(world, floor, -2 * size, 2 * size, 2 * size);
+  auto [world, weight] = prism_on<Law>(size, corners, floor, numerics);
+  const auto body = world.grain(0);
   for (int k = 0; k < int(4 / numerics.share); ++k) world.step(h);
   constexpr int steps = 20;
   for (double load = 0.99; load < 1.01; load += 1e-4) {
@@ -269,18 +293,30 @@ void all_creeps(Session& session, std::vector<Numbers>& table) {
       session, "held cube", "0; another engine: 4.5 mm/s", sizes,
       [](const Variant& v, const Numerics& n) { return held<Law>(v.size, v.a, n); }, table);
   std::vector<Variant> ratios = sizes;
-  ratios.push_back({0.1, 1e-3, 0});
-  ratios.push_back({0.1, 1e3, 0});
+  for (const double size : {0.1, 1e-6, 10.0})
+    for (const double ratio : {1e-3, 1e3}) ratios.push_back({size, ratio, 0});
   creeps<Law>(
       session, "stack on an incline", "0", ratios,
       [](const Variant& v, const Numerics& n) { return stack<Law>(v.size, v.a, n); }, table);
   std::vector<Variant> grips;
   for (const double force : {12.0, 60.0})
     for (const double ratio : {1.0, 1e-3, 1e3}) grips.push_back({0.008, force, ratio});
-  for (const double size : {1e-6, 10.0}) grips.push_back({size, 12 * std::pow(size / 0.008, 3), 1});
+  for (const double size : {1e-6, 10.0})
+    for (const double ratio : {1.0, 1e-3, 1e3})
+      grips.push_back({size, 12 * std::pow(size / 0.008, 3), ratio});
   creeps<Law>(
       session, "grip", "0; another engine: 50 to 2300 um/s", grips,
       [](const Variant& v, const Numerics& n) { return grip<Law>(v.size, v.a, v.b, n); }, table);
+  std::vector<Variant> prisms;
+  for (const double size : {0.1, 1e-6, 10.0})
+    for (const double corners : {3, 4, 8})
+      for (const double floor : {0, 1, 2}) prisms.push_back({size, corners, floor});
+  creeps<Law>(
+      session, "prism on points, pushed by 0.9 μ m g", "0", prisms,
+      [](const Variant& v, const Numerics& n) {
+        return pushed<Law>(v.size, int(v.a), int(v.b), n);
+      },
+      table);
 }
 
 template <class Law>
