@@ -71,41 +71,52 @@ moreau::Simulation<Shape, Law> world_of(double size, const Law& law, const Numer
   return world;
 }
 
-/// Largest mean velocity of the grains along an axis between 4 and 14 sqrt(L / g), over g h.
+/// What became of grains that should not move, from 4 to 14 sqrt(L / g).
+struct Stay {
+  double creep = 0;     ///< largest mean velocity along an axis, over g h
+  double lift = 0;      ///< largest way along the normal of the contacts, over L
+  double unsolved = 0;  ///< share of all steps
+};
 template <class World>
-double creep(World& world, double size, const Numerics& numerics, const Vector& axis) {
+Stay stay(World& world, double size, const Numerics& numerics, const Vector& axis,
+          const Vector& normal) {
   const double h = numerics.step(size);
   const int first = int(std::lround(4 / numerics.share)),
             last = int(std::lround(14 / numerics.share));
-  std::vector<double> before;
+  Stay result;
+  std::vector<Vector> before;
   for (int k = 0; k < last; ++k) {
     if (k == first)
       for (const moreau::BodyId grain : world.grains())
-        before.push_back(axis.dot(world.pose(grain).position));
-    world.step(h);
+        before.push_back(world.pose(grain).position);
+    result.unsolved += !world.step(h).solve.converged;
+    for (std::size_t g = 0; g < before.size(); ++g) {
+      const Vector way = world.pose(world.grain(g)).position - before[g];
+      result.lift = std::max(result.lift, normal.dot(way) / size);
+      if (k + 1 == last)
+        result.creep =
+            std::max(result.creep, std::abs(axis.dot(way)) / ((last - first) * h) / (gravity * h));
+    }
   }
-  double largest = 0;
-  std::size_t k = 0;
-  for (const moreau::BodyId grain : world.grains())
-    largest = std::max(largest, std::abs(axis.dot(world.pose(grain).position) - before[k++]));
-  return largest / ((last - first) * h) / (gravity * h);
+  result.unsolved /= last;
+  return result;
 }
 
 /// A cube that a force of 20 N per 9.81 N of its weight presses to a wall.
 template <class Law>
-double held(double size, double, const Numerics& numerics) {
+Stay held(double size, double, const Numerics& numerics) {
   const double weight = 1000 * size * size * size * gravity;
   auto world = world_of<Polyhedron>(size, law_of<Law>(1, weight, size), numerics);
   const auto shape = world.add_shape(moreau::cuboid<Polyhedron>(Vector::Constant(size / 2)));
   const auto cube = world.add_grain(shape, {Vector(size / 2, 0, 0)}, 1000);
   world.set_force(cube, {-20 / 9.81 * weight, 0, 0});
   world.add_wall(Vector::UnitX(), Vector::Zero());
-  return creep(world, size, numerics, Vector::UnitZ());
+  return stay(world, size, numerics, Vector::UnitZ(), Vector::UnitX());
 }
 
 /// @param ratio mass of the upper cube over that of the lower one
 template <class Law>
-double stack(double size, double ratio, const Numerics& numerics) {
+Stay stack(double size, double ratio, const Numerics& numerics) {
   const double weight = 1000 * size * size * size * gravity * std::max(1.0, ratio);
   auto world = world_of<Polyhedron>(size, law_of<Law>(0.5, weight, size), numerics);
   const double angle = std::atan(0.3);
@@ -114,13 +125,13 @@ double stack(double size, double ratio, const Numerics& numerics) {
   world.add_grain(shape, {Vector(0, 0, size / 2)}, 1000);
   world.add_grain(shape, {Vector(0, 0, 1.5 * size)}, 1000 * ratio);
   world.add_wall(Vector::UnitZ(), Vector::Zero());
-  return creep(world, size, numerics, Vector::UnitX());
+  return stay(world, size, numerics, Vector::UnitX(), Vector::UnitZ());
 }
 
 /// @param size  diameter of the capsule [m]
 /// @param ratio mass of a pad over that of the capsule
 template <class Law>
-double grip(double size, double force, double ratio, const Numerics& numerics) {
+Stay grip(double size, double force, double ratio, const Numerics& numerics) {
   const double radius = size / 2, half_length = 2.5 * size;
   const Capsule capsule(half_length, radius);
   const double volume = capsule.mass_properties(1).mass;
@@ -134,7 +145,7 @@ double grip(double size, double force, double ratio, const Numerics& numerics) {
     world.set_wall_mass(pad, ratio * mass);
     world.set_force(pad, -side * force * Vector::UnitX());
   }
-  return creep(world, size, numerics, Vector::UnitZ());
+  return stay(world, size, numerics, Vector::UnitZ(), Vector::UnitX());
 }
 
 /// A floor of squares, each of two triangles.
@@ -217,11 +228,11 @@ OnPoints<Law> prism_on(double size, int corners, int floor, const Numerics& nume
 
 /// Creep of a prism that 0.9 of the force that starts to slide it pushes along a floor.
 template <class Law>
-double pushed(double size, int corners, int floor, const Numerics& numerics) {
+Stay pushed(double size, int corners, int floor, const Numerics& numerics) {
   auto [world, weight] = prism_on<Law>(size, corners, floor, numerics);
   const Vector direction(std::cos(0.3), std::sin(0.3), 0);
   world.set_force(world.grain(0), 0.9 * 0.5 * weight * direction);
-  return creep(world, size, numerics, direction);
+  return stay(world, size, numerics, direction, Vector::UnitZ());
 }
 
 /// The force along the floor at which a prism on `corners` points starts to slide, over mu m g, less 1.
@@ -270,18 +281,35 @@ void creeps(Session& session, const std::string& name, const std::string& publis
       row.grains = name == "stack on an incline" ? 2 : 1;
       row.samples = variants.size();
       row.step = numerics.step(variants.front().size);
-      row.measured = 0;
+      Stay worst;
       for (const Variant& v : variants) {
-        const Result result =
-            session.once(name + ' ' + row.law + text(" %g", v.size) + text(" %g %g", v.a, v.b) +
-                             text(" share %g tolerance %g", share, row.tolerance),
-                         [&](Run&) { return Numbers{one(v, numerics)}; });
+        const Result result = session.once(
+            "stay, " + name + ' ' + row.law + text(" %g", v.size) + text(" %g %g", v.a, v.b) +
+                text(" share %g tolerance %g", share, row.tolerance),
+            [&](Run&) {
+              const Stay stays = one(v, numerics);
+              return Numbers{stays.creep, stays.lift, stays.unsolved};
+            });
+        const Numbers& of = result.values;
         row.seconds += result.seconds;
-        row.measured = std::max(row.measured, result.values[0]);
+        worst.creep = std::max(worst.creep, of[0]);
+        worst.lift = std::max(worst.lift, of[1]);
+        worst.unsolved = std::max(worst.unsolved, of[2]);
         table.push_back({double(std::is_same_v<Law, Springs>), v.size, v.a, v.b, share,
-                         row.tolerance, result.values[0]});
+                         row.tolerance, of[0], of[1], of[2]});
       }
+      row.measured = worst.creep;
       row.verdict = row.measured < (tight ? 1e-6 : 1e-3) ? "yes" : "no";
+      session.row(row);
+      row.published = "0";
+      row.figure = name + ": largest lift over the size";
+      row.measured = worst.lift;
+      row.verdict = worst.lift <= 1e-9 ? "yes" : "no";
+      session.row(row);
+      row.published = "–";
+      row.figure = name + ": steps not solved, largest share";
+      row.measured = worst.unsolved;
+      row.verdict = "";
       session.row(row);
     }
 }
@@ -405,10 +433,10 @@ void sticking(Session& session) {
   std::vector<Numbers> table;
   all_creeps<Rigid>(session, table);
   all_creeps<Springs>(session, table);
-  session.curve(
-      "sticking",
-      {"springs", "size [m]", "a", "b", "step over sqrt(L/g)", "tolerance", "creep over g h"},
-      table);
+  session.curve("sticking",
+                {"springs", "size [m]", "a", "b", "step over sqrt(L/g)", "tolerance",
+                 "creep over g h", "lift over the size", "steps not solved, share"},
+                table);
   launches<Rigid>(session);
   launches<Springs>(session);
   starts<Rigid>(session);
