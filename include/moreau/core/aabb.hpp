@@ -39,12 +39,16 @@ struct Aabb {
   }
   /// Whether every point of `other` lies in this box.
   bool contains(const Aabb& other) const {
-    return (lower.array() <= other.lower.array()).all() &&
-           (other.upper.array() <= upper.array()).all();
+    bool contains = true;
+    for (int k = 0; k < S::dim; ++k)
+      contains = contains && lower[k] <= other.lower[k] && other.upper[k] <= upper[k];
+    return contains;
   }
   /// Whether the point [m] lies in this box.
   bool contains(const VectorArgument<S>& x) const {
-    return (lower.array() <= x.array()).all() && (x.array() <= upper.array()).all();
+    bool contains = true;
+    for (int k = 0; k < S::dim; ++k) contains = contains && lower[k] <= x[k] && x[k] <= upper[k];
+    return contains;
   }
   /// Extends the box so that it contains the point [m].
   void merge(const VectorArgument<S>& x) {
@@ -56,8 +60,10 @@ struct Aabb {
   /// The box with every face moved outwards by the margin [m]; inwards if the margin is negative.
   Aabb inflated(Scalar margin) const {
     Aabb box = *this;
-    box.lower.array() -= margin;
-    box.upper.array() += margin;
+    for (int k = 0; k < S::dim; ++k) {
+      box.lower[k] -= margin;
+      box.upper[k] += margin;
+    }
     return box;
   }
   /// The box moved by a shift [m].

@@ -118,7 +118,7 @@ class PeriodicCell {
           const Scalar along = one.dot(other) / other.squaredNorm();
           // Of two vectors of the same length, the one that is there stays.
           if (!(std::abs(along) > Scalar(0.5) + Scalar(1e-3))) continue;
-          reduced.col(i) = one - std::round(along) * other;
+          reduced.col(i) = moreau::along(one, -std::round(along), other);
           again = changed = true;
         }
       again = shorten(reduced) || again;
@@ -131,7 +131,10 @@ class PeriodicCell {
   /// Displacement by whole numbers of cells, world axes [m].
   /// @param cells signed numbers of cells along the axes or the vectors, whole numbers
   Value<Vector> shift(const VectorArgument<S>& cells) const {
-    return is_lattice_ ? product(vectors_, Vector(cells)) : Vector(length_.cwiseProduct(cells));
+    if (is_lattice_) return product(vectors_, Vector(cells));
+    Vector shift = cells;
+    for (int k = 0; k < S::dim; ++k) shift[k] *= length_[k];
+    return shift;
   }
   /// The whole numbers of cells nearest to a displacement [m]; zero along open axes.
   Value<Vector> cells(const VectorArgument<S>& displacement) const {

@@ -152,7 +152,8 @@ class PointChoice {
       for (const auto& point : points_) {
         if (point.feature != old.feature) continue;
         sum += static_cast<T>(old.push);
-        pressure_ += static_cast<T>(old.push) * (point.position - points_[first_].position);
+        const Vector apart = point.position - points_[first_].position;
+        pressure_ += static_cast<T>(old.push) * apart;
       }
     loaded_ = sum > 0;
     if (loaded_) pressure_ /= sum;

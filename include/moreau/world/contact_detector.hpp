@@ -233,7 +233,8 @@ class ContactDetector {
   static bool is_slow(const Grain& a, const Grain& b, const Bodies<S>& bodies, Scalar most) {
     const auto &of_a = bodies.velocity[a.body.index()], &of_b = bodies.velocity[b.body.index()];
     const Vector apart = b.placed.center() - a.placed.center();
-    const Vector shift = linear<S>(of_b) - linear<S>(of_a) - S::spin(angular<S>(of_a), apart);
+    Vector shift = linear<S>(of_b) - linear<S>(of_a);
+    shift -= S::spin(angular<S>(of_a), apart);
     return shift.norm() + b.width / 2 * (angular<S>(of_b) - angular<S>(of_a)).norm() <= most;
   }
 

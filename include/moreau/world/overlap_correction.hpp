@@ -193,7 +193,9 @@ class OverlapCorrection {
     pushes_.assign(contacts.size(), S::Vector::Zero());
     const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > slop / 100; };
     const auto free = [&](std::size_t c) {
-      return typename S::Vector(-target(candidates_[c].depth, largest) * S::Vector::Unit(0));
+      typename S::Vector offset = S::Vector::Zero();
+      offset[0] = -target(candidates_[c].depth, largest);
+      return offset;
     };
     const auto frictionless = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
@@ -209,7 +211,8 @@ class OverlapCorrection {
       for (const std::uint32_t c : own) {
         candidates_[c].depth = -std::numeric_limits<Scalar>::infinity();  // never taken
         if (pushes_[c][0] == 0) continue;
-        const typename S::Vector along_normal = pushes_[c][0] * contacts[c].frame.col(0);
+        typename S::Vector along_normal = contacts[c].frame.col(0);
+        along_normal *= pushes_[c][0];
         const std::uint32_t a = contacts[c].a, b = contacts[c].b;
         sweeps_.push(op.inverse_mass(b), b, along_normal, contacts[c].lever_b);
         sweeps_.push(op.inverse_mass(a), a, -along_normal, contacts[c].lever_a);

@@ -228,7 +228,7 @@ class CellGrid {
     // Largest change of the extent of the other box by the rounding of coordinates.
     const Scalar slack = Scalar(4) * std::numeric_limits<Scalar>::epsilon() *
                          (box.lower.cwiseAbs().maxCoeff() + level.width);
-    reach.array() -= level.width + slack;
+    for (int k = 0; k < S::dim; ++k) reach[k] -= level.width + slack;
     Range range{cell(reach, level), cell(box.upper, level)};
     for (std::size_t k = 0; k < dim; ++k) {
       range.from[k] = std::max(range.from[k], level.least[k]);
@@ -323,7 +323,7 @@ class CellGrid {
   int level_count_ = 0;
   std::array<Level, max_levels> levels_{};
   List<std::uint8_t> level_of_;
-  std::vector<Cell> cells_;
+  List<Cell> cells_;
   List<std::uint32_t> loose_;         // boxes that are in no level
   List<int> coarser_;                 // levels with boxes
   List<std::uint32_t> begin_, next_;  // of every bucket in entries_

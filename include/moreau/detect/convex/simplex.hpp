@@ -135,7 +135,7 @@ class Simplex {
     const T squared = n.squaredNorm();
     // If the points lie on a line to rounding, their normal consists of rounding errors.
     constexpr T parallel = T(1024) * std::numeric_limits<T>::epsilon();
-    const bool is_flat = !(squared > parallel * parallel * (unit_ * to(s, i)).squaredNorm() *
+    const bool is_flat = !(squared > parallel * parallel * Vector(unit_ * to(s, i)).squaredNorm() *
                                          to(s, j).squaredNorm());
     const bool is_beyond_i = is_flat || n.cross(to(s, i)).dot(s) > T(0);
     const bool is_beyond_j = is_flat || n.cross(to(s, j)).dot(s) < T(0);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/pair_cache.hpp"
 #include "moreau/detect/placed.hpp"
@@ -86,7 +87,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   a.vertices().for_each_above(normal, height - margin - rounding, [&](std::uint32_t v) {
     const Vector x = a.vertices()[v];
     const T gap_v = height + b.normal().dot(x);
-    out.points.push_back({a.center() + (x + T(0.5) * gap_v * normal), gap_v,
+    out.points.push_back({a.center() + along(x, T(0.5) * gap_v, normal), gap_v,
                           FeatureKey(detail::vertex_on_face(S{}), v, 0)});
   });
   out.contact_class = detail::class_at_plane(S{}, out.points.size());
@@ -105,7 +106,7 @@ bool collide(const Placed<Segment<S>>& a, const Placed<HalfSpace<S>>& b, typenam
     const typename S::Vector x = a.vertex(v);
     const auto gap = b.normal().dot((a.center() - b.center()) + x);
     if (gap <= margin)
-      out.points.push_back({a.center() + (x + gap / 2 * found.normal), gap,
+      out.points.push_back({a.center() + along(x, gap / 2, found.normal), gap,
                             FeatureKey(detail::vertex_on_face(S{}), v, 0)});
   }
   out.contact_class = detail::class_at_plane(S{}, out.points.size());
@@ -194,7 +195,7 @@ bool collide(const Placed<ShapeT>& a, const Placed<HalfSpace<SpaceOf<ShapeT>>>& 
   const auto near = size * DetectionTolerance<typename S::Scalar>::coincident;
   const auto add = [&](const typename S::Vector& x, std::size_t id) {
     const auto gap = b.normal().dot((a.center() - b.center()) + x);
-    const typename S::Vector position = a.center() + (x + gap / 2 * found.normal);
+    const typename S::Vector position = a.center() + along(x, gap / 2, found.normal);
     bool is_new = gap <= margin;
     for (const auto& point : out.points)
       is_new = is_new && (point.position - position).squaredNorm() > near * near;

@@ -58,7 +58,8 @@ class PolytopePair {
   Point support(const Vector& n) const {
     const std::uint32_t i = a.vertices().farthest(n).index;
     const std::uint32_t j = b.vertices().farthest(-n).index;
-    return {offset + (b.vertices()[j] - a.vertices()[i]), i, j};
+    const Vector apart = b.vertices()[j] - a.vertices()[i];
+    return {offset + apart, i, j};
   }
   /// The first search direction of GJK: from the centre of a to the centre of b, or the x axis if
   /// the centres coincide.

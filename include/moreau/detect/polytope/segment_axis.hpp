@@ -44,7 +44,8 @@ struct SegmentPair {
   /// project_on_b: the parameter t of the projection of a's point s onto the line of b.
   T project_on_a(T t) const { return half_a.dot(along(offset, t, half_b)) / half_a.squaredNorm(); }
   T project_on_b(T s) const {
-    const Vector apart = s * half_a - offset;
+    Vector apart = s * half_a;
+    apart -= offset;
     return half_b.dot(apart) / half_b.squaredNorm();
   }
 };

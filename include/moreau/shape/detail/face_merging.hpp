@@ -68,9 +68,9 @@ class FaceMerging {
     area_.reserve(triangles.size());
     for (const HullTriangle& t : triangles)
       area_.push_back(area_vector(points[t.vertex[0]], points[t.vertex[1]], points[t.vertex[2]]));
-    std::vector<double> size;
+    List<double> size;
     for (const Eigen::Vector3d& area : area_) size.push_back(area.squaredNorm());
-    std::vector<std::uint32_t> order(triangles.size());
+    List<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     sort_items(order, [&](std::uint32_t a, std::uint32_t b) {
       return size[a] > size[b] || (size[a] == size[b] && a < b);
@@ -182,7 +182,7 @@ class FaceMerging {
   std::span<const Eigen::Vector3d> points_;
   double tolerance_;
   std::vector<Eigen::Vector3d> area_;  ///< area vectors: outward, twice as long as the area
-  std::vector<std::uint32_t> group_;
+  List<std::uint32_t> group_;
   std::vector<std::vector<std::uint32_t>> members_;
   Eigen::Vector3d normal_, center_;
 };

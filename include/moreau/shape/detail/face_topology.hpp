@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/index_table.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/simd/prefetch.hpp"
@@ -39,7 +39,7 @@ class IndexLists {
   }
   /// Appends a list.
   void push_back(std::span<const std::uint32_t> list) {
-    items_.insert(items_.end(), list.begin(), list.end());
+    items_.append(list.data(), list.size());
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
   }
   /// An item of a list.
@@ -52,7 +52,7 @@ class IndexLists {
     begins_.assign(lists + 1, 0);
     for (const Entry& entry : entries) ++begins_[entry.list + 1];
     for (std::size_t i = 0; i < lists; ++i) begins_[i + 1] += begins_[i];
-    std::vector<std::uint32_t> next(begins_);
+    List<std::uint32_t> next(begins_);
     items_.resize(entries.size());
     for (const Entry& entry : entries) items_[next[entry.list]++] = entry.item;
   }
@@ -67,7 +67,7 @@ class IndexLists {
             "entries, which must rise from 0 to the number of items");
   }
 
-  std::vector<std::uint32_t> begins_{0}, items_;
+  List<std::uint32_t> begins_{0}, items_;
 };
 
 /// An edge and the two faces that share it. Going around face[0] counter-clockwise, the edge leads
@@ -109,7 +109,7 @@ struct FaceTopology {
   ///                               that is not one piece without handles (V - E + F is not 2)
   FaceTopology(std::size_t vertex_count, std::span<const std::vector<std::uint32_t>> face_list,
                std::string_view function) {
-    std::vector<std::size_t> last_face(vertex_count, 0);  // one past the last face with the vertex
+    List<std::size_t> last_face(vertex_count, 0);  // one past the last face with the vertex
     for (std::size_t f = 0; f < face_list.size(); ++f) {
       if (face_list[f].size() < 3)
         throw_element(function, "faces[", f, "].size()", face_list[f].size(), "must be at least 3");
@@ -154,30 +154,34 @@ struct FaceTopology {
   }
 
   void pair_edges(std::string_view function) {
-    std::map<std::array<std::uint32_t, 2>, std::uint32_t> open;  // edges whose reverse has not been
-                                                                 // found
+    IndexTable open;  // edges whose reverse has not been found
+    const auto key = [](std::uint32_t from, std::uint32_t to) {
+      return std::uint64_t(from) << 32 | to;
+    };
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const auto face = faces[f];
       std::vector<std::uint32_t> of_face(face.size());
       for (std::size_t k = 0; k < face.size(); ++k) {
         const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
-        const auto reverse = open.find({b, a});
-        if (reverse != open.end()) {
-          of_face[k] = reverse->second;
-          edges[reverse->second].face[1] = f;
-          open.erase(reverse);
+        if (const std::uint32_t reverse = open.find(key(b, a)); reverse != IndexTable::none) {
+          of_face[k] = reverse;
+          edges[reverse].face[1] = f;
+          open[key(b, a)] = IndexTable::none;
           continue;
         }
         of_face[k] = static_cast<std::uint32_t>(edges.size());
-        if (!open.emplace(std::array{a, b}, of_face[k]).second)
+        std::uint32_t& edge = open[key(a, b)];
+        if (edge != IndexTable::none)
           throw_edge(function, a, b, "must not run the same way in two faces");
+        edge = of_face[k];
         edges.push_back({{a, b}, {f, f}});
       }
       face_edges.push_back(of_face);
     }
-    if (open.empty()) return;
-    const auto [a, b] = open.begin()->first;
-    throw_edge(function, a, b, "must run back in another face: the surface is not closed");
+    const std::uint64_t first = open.smallest_key();
+    if (first == ~std::uint64_t(0)) return;
+    throw_edge(function, std::uint32_t(first >> 32), std::uint32_t(first),
+               "must run back in another face: the surface is not closed");
   }
 
   void collect(std::size_t vertex_count, std::string_view function) {

@@ -12,9 +12,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
+#include "moreau/core/index_table.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/sort_items.hpp"
 #include "moreau/shape/detail/vertices.hpp"
 
@@ -59,9 +60,7 @@ class NearPoints {
       // Mostly all corners lie in one cell.
       if (corner > 0 && cell == last) continue;
       last = cell;
-      const auto found = first_.find(hash_of(cell));
-      if (found == first_.end()) continue;
-      for (std::uint32_t i = found->second; i != none; i = next_[i])
+      for (std::uint32_t i = first_.find(hash_of(cell)); i != none; i = next_[i])
         if (is_near(points_[i])) return true;
     }
     return false;
@@ -69,7 +68,7 @@ class NearPoints {
 
  private:
   static constexpr std::size_t few = 32;
-  static constexpr std::uint32_t none = ~0U;
+  static constexpr std::uint32_t none = IndexTable::none;
   using Cell = std::array<std::int64_t, std::size_t(Point::RowsAtCompileTime)>;
 
   Cell cell_of(const Point& x) const {
@@ -89,16 +88,15 @@ class NearPoints {
   }
   void put(std::uint32_t i) {
     next_.resize(points_.size(), none);
-    const auto [at, is_new] = first_.try_emplace(hash_of(cell_of(points_[i])), i);
-    if (is_new) return;
-    next_[i] = at->second;
-    at->second = i;
+    std::uint32_t& first = first_[hash_of(cell_of(points_[i]))];
+    next_[i] = first;
+    first = i;
   }
 
   const std::vector<Point>& points_;
   double distance_;
-  std::unordered_map<std::uint64_t, std::uint32_t> first_;  // the last point of each cell
-  std::vector<std::uint32_t> next_;                         // the point of the same cell before it
+  IndexTable first_;          // the last point of each cell
+  List<std::uint32_t> next_;  // the point of the same cell before it
 };
 
 /// The points converted to double, divided by a power of two (which is exact) so that the largest
@@ -109,10 +107,10 @@ struct HullInput {
   using Point = Eigen::Matrix<double, Dim, 1>;
 
   std::vector<Point> points;
-  std::vector<std::uint32_t> labels;  ///< index of each point in the caller's input
-  double unit = 1;                    ///< the length [m] of one unit of the scaled coordinates
-  double rounding = 0;                ///< rounding error of the largest coordinate, in scaled units
-  double flat = 0, thin = 0;          ///< HullTolerance, in scaled units
+  List<std::uint32_t> labels;  ///< index of each point in the caller's input
+  double unit = 1;             ///< the length [m] of one unit of the scaled coordinates
+  double rounding = 0;         ///< rounding error of the largest coordinate, in scaled units
+  double flat = 0, thin = 0;   ///< HullTolerance, in scaled units
 
   template <class Vector>
   HullInput(std::span<const Vector> given, std::string_view function) {
@@ -143,7 +141,7 @@ struct HullInput {
   void sort(std::span<const Vector> given) {
     std::vector<Point> scaled;
     for (const Vector& x : given) scaled.push_back(in_units(x.template cast<double>()));
-    std::vector<std::uint32_t> order(given.size());
+    List<std::uint32_t> order(given.size());
     std::iota(order.begin(), order.end(), 0U);
     sort_items(order, [&](std::uint32_t a, std::uint32_t b) {
       const Point &x = scaled[a], &y = scaled[b];

@@ -14,7 +14,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
+
+#include "moreau/core/list.hpp"
 
 namespace moreau {
 
@@ -69,7 +70,7 @@ class Expansion {
   double leading() const { return terms_.empty() ? 0.0 : terms_.back(); }
 
  private:
-  std::vector<double> terms_;
+  List<double> terms_;
 };
 
 /// a d - b c without rounding error.

@@ -82,13 +82,12 @@ class PolytopeBase {
   void move_origin(const Moments<S>& rough, const Vector& origin_in_input) {
     const Vector center = rough.first / rough.volume;
     centroid_of_input_ = origin_in_input + center;
-    // Eigen's square root of several floats at once rounds differently from that of one.
-    Eigen::Array<Scalar, Eigen::Dynamic, 1> squares(vertices_.rows());
+    Scalar largest = 0;
     for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
       for (int k = 0; k < S::dim; ++k) vertices_(i, k) -= center[k];
-      squares[i] = squared_distance<S>(vertices_, i, Vector::Zero());
+      largest = std::max(largest, squared_distance<S>(vertices_, i, Vector::Zero()));
     }
-    circumradius_ = squares.sqrt().maxCoeff();
+    circumradius_ = std::sqrt(largest);
   }
   /// Sets the moments.
   /// @param function  name of the calling function, for error messages

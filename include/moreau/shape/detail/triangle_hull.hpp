@@ -31,7 +31,6 @@
 #include <random>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "moreau/core/list.hpp"
 #include "moreau/core/neighbour_cells.hpp"
@@ -89,9 +88,9 @@ class TriangleHull {
   };
 
   /// The order in which the points are added: that of the input if there are few points.
-  static std::vector<std::uint32_t> order_of(std::span<const Point> points) {
+  static List<std::uint32_t> order_of(std::span<const Point> points) {
     constexpr std::size_t few = 64;
-    std::vector<std::uint32_t> order(points.size());
+    List<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     if (points.size() <= few) return order;
     std::minstd_rand random;  // the same numbers with every library
@@ -132,7 +131,7 @@ class TriangleHull {
     // there may be fewer new triangles than visible ones. The last triangles then move into the
     // free places.
     slots_ = visible_;
-    std::vector<std::uint32_t>& slots = slots_;
+    List<std::uint32_t>& slots = slots_;
     while (slots.size() < rim_.size()) {
       slots.push_back(static_cast<std::uint32_t>(triangles_.size()));
       triangles_.emplace_back();
@@ -213,10 +212,10 @@ class TriangleHull {
 
   std::span<const Point> points_;
   List<HullTriangle> triangles_;
-  std::vector<std::uint32_t> visible_, slots_, orphans_, starts_at_, ends_at_;
-  std::vector<std::uint32_t> sees_;          // for each point a triangle it is outside of, or none
-  std::vector<std::uint32_t> first_, next_;  // the points of each triangle, as linked lists
-  std::vector<std::uint32_t> seen_by_;       // for each triangle the last point that saw it
+  List<std::uint32_t> visible_, slots_, orphans_, starts_at_, ends_at_;
+  List<std::uint32_t> sees_;          // for each point a triangle it is outside of, or none
+  List<std::uint32_t> first_, next_;  // the points of each triangle, as linked lists
+  List<std::uint32_t> seen_by_;       // for each triangle the last point that saw it
   List<Rim> rim_;
 };
 

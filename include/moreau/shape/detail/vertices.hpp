@@ -8,10 +8,10 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/sort_items.hpp"
@@ -84,7 +84,7 @@ typename S::Scalar least_distance(const VertexMatrix<S>& rows) {
     T along;
     Eigen::Index row;
   };
-  std::vector<Entry> order(static_cast<std::size_t>(rows.rows()));
+  List<Entry> order(static_cast<std::size_t>(rows.rows()));
   T size = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     order[i] = {0, static_cast<Eigen::Index>(i)};

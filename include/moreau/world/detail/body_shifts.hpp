@@ -8,6 +8,7 @@
 
 #include "moreau/core/list.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
@@ -38,7 +39,7 @@ class BodyShifts {
       if (shifts[i].isZero(0)) continue;
       unshifted_.push_back({i, bodies.pose[i]});
       const Vector move = linear<S>(shifts[i]);
-      const Vector force = linear<S>(bodies.force[i]) + bodies.grain_mass[i] * gravity;
+      const Vector force = along(Vector(linear<S>(bodies.force[i])), bodies.grain_mass[i], gravity);
       if (!shared || shared->owns(i)) report.work += double(force.dot(move));
       report.largest_shift = std::max(report.largest_shift, double(move.norm()));
     }

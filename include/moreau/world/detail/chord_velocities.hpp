@@ -241,7 +241,7 @@ class ChordVelocities {
   static Vector rolling(const Vector& normal, const Angular& of_grain, const Angular& of_wall,
                         const Vector& swing, const Vector& slip, Scalar step) {
     const Vector change = S::spin(of_wall, Vector(swing - slip)) - S::spin(of_grain, swing);
-    return step / 2 * (change - normal.dot(change) * normal);
+    return step / 2 * along(change, -normal.dot(change), normal);
   }
 
   /// Of a cylinder, which its rotation about its axis leaves where it is.
@@ -256,7 +256,7 @@ class ChordVelocities {
     const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
     const Angular axis = cylinder.shape.axis_at(bodies.pose[b].rotation);
-    const Angular tilt = of_b - axis * axis.dot(of_b);
+    const Angular tilt = along(of_b, -axis.dot(of_b), axis);
     const Vector own = chord_excess<S>(of_a, lever_a, step);
     const Vector tilted = chord_excess<S>(tilt, lever_b, step);
     const Vector slip = linear<S>(bodies.velocity[b]) + S::spin(tilt, lever_b) -

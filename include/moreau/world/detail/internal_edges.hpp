@@ -138,8 +138,8 @@ class InternalEdges {
 
   /// Normal out of the other body, towards X.
   static Vector outward(const View& view, const DetectedContacts<S>& contacts) {
-    const auto normal = contacts.points[view.first].frame.col(0);
-    return view.is_a ? Vector(-normal) : Vector(normal);
+    const Vector normal = contacts.points[view.first].frame.col(0);
+    return view.is_a ? Vector(-normal) : normal;
   }
   /// The plane P of a contact, relative to the centre of X.
   struct Surface {

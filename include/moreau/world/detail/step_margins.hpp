@@ -53,7 +53,8 @@ typename S::Scalar relative_speed(const typename S::Twist& twist_a,
                                   const typename S::Twist& twist_b, const typename S::Vector& to_a,
                                   typename S::Scalar radius) {
   const typename S::Angular of_b = angular<S>(twist_b), turn = of_b - angular<S>(twist_a);
-  const typename S::Vector slide = linear<S>(twist_b) + S::spin(of_b, to_a) - linear<S>(twist_a);
+  typename S::Vector slide = linear<S>(twist_b) + S::spin(of_b, to_a);
+  slide -= linear<S>(twist_a);
   return slide.norm() + radius * turn.norm();
 }
 

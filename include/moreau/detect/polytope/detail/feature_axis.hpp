@@ -122,6 +122,7 @@ struct EdgeView {
 template <std::floating_point T>
 bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
                      typename Space<3, T>::Vector& normal) {
+  using Vector = typename Space<3, T>::Vector;
   if (a.direction.dot(b.normal_0) * a.direction.dot(b.normal_1) >= T(0)) return false;
   if (b.direction.dot(a.normal_0) * b.direction.dot(a.normal_1) >= T(0)) return false;
   // The common normal of edges more parallel than this equals the normal of a face to rounding.
@@ -131,8 +132,8 @@ bool crossing_normal(const EdgeView<T>& a, const EdgeView<T>& b,
   if (!(length2 > parallel * parallel * a.direction.squaredNorm() * b.direction.squaredNorm()))
     return false;
   const T length = std::sqrt(length2);
-  normal /= normal.dot(a.normal_0 + a.normal_1) < T(0) ? -length : length;
-  return normal.dot(b.normal_0 + b.normal_1) < T(0);
+  normal /= normal.dot(Vector(a.normal_0 + a.normal_1)) < T(0) ? -length : length;
+  return normal.dot(Vector(b.normal_0 + b.normal_1)) < T(0);
 }
 
 /// Whether two edges are so parallel (sine of their angle at most 0.01) that rounding errors of

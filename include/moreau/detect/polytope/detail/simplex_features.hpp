@@ -86,7 +86,8 @@ WitnessPoints<Space<3, T>> witness_of(const PolytopePair<Polyhedron<T>>& pair,
   for (int i = 0; i < simplex.size(); ++i) {
     const T w = weight[static_cast<std::size_t>(i)];
     witness.on_a += w * pair.a.vertices()[simplex[i].a];
-    witness.on_b += w * (pair.b.vertices()[simplex[i].b] + pair.offset);
+    const Vector corner = pair.b.vertices()[simplex[i].b] + pair.offset;
+    witness.on_b += w * corner;
   }
   witness.feature = FeatureKey(FeatureKey::Kind::vertex_vertex, simplex[0].a, simplex[0].b);
   return witness;

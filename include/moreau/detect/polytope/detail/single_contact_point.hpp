@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/detect/polytope/detail/feature_axis.hpp"
 #include "moreau/detect/polytope/facing_features.hpp"
 #include "moreau/detect/polytope/projection.hpp"
@@ -125,7 +126,7 @@ bool leaves_slab(const Placed<Polyhedron<T>>& ground, std::uint32_t face,
   const Vector normal = ground.normals()[face];
   // Signed fraction of the edge over which the gap to the face grows by the slab.
   const T step = slab * normal.dot(up) / normal.dot(direction);
-  const Vector below = crossing + step * direction - slab * up;
+  const Vector below = along(along(crossing, step, direction), -slab, up);
   return part + step > T(0) && part + step < T(1) && projects_within(ground, face, below, near2);
 }
 
