@@ -15,9 +15,9 @@
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/core/index_table.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/shape/detail/index_table.hpp"
 #include "moreau/simd/prefetch.hpp"
 
 namespace moreau {
@@ -154,7 +154,7 @@ struct FaceTopology {
   }
 
   void pair_edges(std::string_view function) {
-    IndexTable open;  // edges whose reverse has not been found
+    detail::IndexTable open;  // edges whose reverse has not been found
     const auto key = [](std::uint32_t from, std::uint32_t to) {
       return std::uint64_t(from) << 32 | to;
     };
@@ -163,15 +163,16 @@ struct FaceTopology {
       std::vector<std::uint32_t> of_face(face.size());
       for (std::size_t k = 0; k < face.size(); ++k) {
         const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
-        if (const std::uint32_t reverse = open.find(key(b, a)); reverse != IndexTable::none) {
+        if (const std::uint32_t reverse = open.find(key(b, a));
+            reverse != detail::IndexTable::none) {
           of_face[k] = reverse;
           edges[reverse].face[1] = f;
-          open[key(b, a)] = IndexTable::none;
+          open[key(b, a)] = detail::IndexTable::none;
           continue;
         }
         of_face[k] = static_cast<std::uint32_t>(edges.size());
         std::uint32_t& edge = open[key(a, b)];
-        if (edge != IndexTable::none)
+        if (edge != detail::IndexTable::none)
           throw_edge(function, a, b, "must not run the same way in two faces");
         edge = of_face[k];
         edges.push_back({{a, b}, {f, f}});

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "moreau/core/index_table.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/sort_items.hpp"
+#include "moreau/shape/detail/index_table.hpp"
 #include "moreau/shape/detail/vertices.hpp"
 
 namespace moreau {

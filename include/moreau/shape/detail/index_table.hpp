@@ -7,7 +7,7 @@
 
 #include "moreau/core/list.hpp"
 
-namespace moreau {
+namespace moreau::detail {
 
 /// A map from 64-bit keys to indices, hashed, with linear probing. A std::map or a std::unordered_map brings 100 to 200
 /// functions to a unit.
@@ -62,4 +62,4 @@ class IndexTable {
   std::size_t count_ = 0;
 };
 
-}  // namespace moreau
+}  // namespace moreau::detail
