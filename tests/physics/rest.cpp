@@ -72,3 +72,12 @@ TEST_CASE_TEMPLATE("a face that does not slide holds up to its static friction",
   options.incline = true;
   static_friction::check<ShapeT>(options);
 }
+
+TEST_CASE_TEMPLATE(
+    "a block slides with its own friction beside a heavier one that it does not touch", ShapeT,
+    Polyhedron<>, Polygon<>) {
+  for (const double ratio : {1.0, 1e3, 1e6})
+    for (const double step : {1e-3, 1.0 / 60})
+      for (const bool islands : {true, false})
+        static_friction::check_beside<ShapeT>(ratio, step, islands);
+}

@@ -121,6 +121,66 @@ class Block {
   double weight_ = 0;  // [N]
 };
 
+/// Checks that a block slides to rest with its own friction, and is pushed with it, whatever the mass of a block that rests
+/// 5 m away.
+/// @param ratio   mass of the other block over that of the block
+/// @param step    [s]
+/// @param islands by the direct method
+template <class ShapeT>
+void check_beside(double ratio, double step, bool islands) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = scenes::LawOf<ShapeT>;
+  constexpr double kinetic = 0.3, resting = 0.6, gravity = 10;
+  CAPTURE(S::dim);
+  CAPTURE(sizeof(T));
+  CAPTURE(ratio);
+  CAPTURE(step);
+  CAPTURE(islands);
+  moreau::Materials<Law> materials(2, Law(T(kinetic), T(0), T(resting)));
+  materials.set(moreau::MaterialId(0), moreau::MaterialId(1), Law(T(0)));
+  moreau::ColouredOptions coloured;
+  coloured.islands = islands;
+  scenes::World<ShapeT> world(T(0.1), materials, moreau::ColouredGaussSeidel(coloured));
+  const auto shape = world.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(T(0.05))));
+  const auto large = world.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(T(0.5))));
+  const auto add = [&](moreau::ShapeId id, double x, double z, double density, int material) {
+    moreau::Pose<S> pose;
+    pose.position[0] = T(x);
+    pose.position[S::dim - 1] = T(z);
+    return world.add_grain(id, pose, T(density), moreau::MaterialId(material));
+  };
+  world.add_wall(Vector(Vector::Unit(S::dim - 1)), Vector(Vector::Zero()));
+  world.set_gravity(Vector(-T(gravity) * Vector::Unit(S::dim - 1)));
+  const auto block = add(shape, 0, 0.05, 2500, 0);
+  add(large, -5, 0.5, 2500 * ratio / std::pow(10, S::dim), 0);
+  const auto speed = [&] { return double(world.velocity(block)[0]) / (gravity * step); };
+  for (int k = 0; k < 100; ++k) world.step(T(step));
+  world.set_velocity(block, Vector(T(12.5 * kinetic * gravity * step) * Vector::UnitX()));
+  world.step(T(step));
+  // As the last kick of static friction.
+  CHECK(speed() == doctest::Approx(12.5 * kinetic - resting).epsilon(0.01));
+  for (int k = 1; k <= 10; ++k) {
+    world.step(T(step));
+    CHECK(speed() == doctest::Approx((10.5 - k) * kinetic).epsilon(0.01));
+  }
+  for (int k = 0; k < 10; ++k) world.step(T(step));
+  CHECK(std::abs(speed()) < 1e-3);
+
+  const double x = double(world.pose(block).position[0]);
+  const auto pusher = add(shape, x - 0.1, 0.05, 2500, 1);
+  world.prescribe_motion(pusher);
+  world.set_velocity(pusher, Vector(T(0.1 * gravity * step) * Vector::UnitX()));
+  const double weight = double(world.bodies().grain_mass[block.index()]) * gravity;
+  for (int k = 0; k < 40; ++k) {
+    world.step(T(step));
+    if (k < 10) continue;
+    const double force = -double(world.contact_impulse(pusher)[0]) / step;
+    CHECK(force / weight == doctest::Approx(kinetic).epsilon(0.01));
+  }
+}
+
 /// Checks the threshold, the friction in slip, that the block comes to rest, and the threshold once more.
 template <class ShapeT>
 void check(const Options& options) {

@@ -18,7 +18,6 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/closing_contacts.hpp"
@@ -94,19 +93,17 @@ class ContactLaws {
   }
   /// Chooses the variants of the next step, from impulses that still are rows of the operator and those of the laws.
   /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of the impulses
-  /// @param shared   bodies that other processes share; null: none
   template <
       class Contacts>  // clang would instantiate a function that is no template with the class
   void choose_variants([[maybe_unused]] const Problem& problem, const Materials<Law>& materials,
-                       Contacts& contacts, [[maybe_unused]] double accuracy,
-                       [[maybe_unused]] SharedBodies* shared) const {
+                       Contacts& contacts, [[maybe_unused]] double accuracy) const {
     if constexpr (stateful) {
       const std::span<const Law> laws(materials.laws());
       for (std::size_t c = 0; c < contacts.size(); ++c)
         contacts.variants[c] =
             static_cast<std::uint32_t>(laws[contacts.points[c].law].variant_after(
                 contacts.variants[c], Vector(contacts.impulse(c))));
-      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, accuracy, shared);
+      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, accuracy);
     }
   }
 
@@ -129,16 +126,22 @@ class ContactLaws {
   /// Gives the contacts that do not slide the variant at rest, if a law has static friction.
   template <class Contacts>
   MOREAU_COLD static void hold(const Problem& problem, std::span<const Law> laws,
-                               Contacts& contacts, double accuracy, SharedBodies* shared) {
+                               Contacts& contacts, double accuracy) {
     if (std::none_of(laws.begin(), laws.end(),
                      [](const Law& law) { return law.has_static_friction(); }))
       return;
-    const SlidingPoints<Operator, Law> points(problem, contacts.impulses, accuracy, shared);
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const std::size_t now = contacts.variants[c],
-                        rest = laws[contacts.points[c].law].variant_at_rest(now);
-      if (now != rest && !points.slides(contacts, c))
-        contacts.variants[c] = static_cast<std::uint32_t>(rest);
+    const auto at_rest = [&](std::size_t c) {
+      return static_cast<std::uint32_t>(
+          laws[contacts.points[c].law].variant_at_rest(contacts.variants[c]));
+    };
+    for (std::size_t first = 0, last; first < contacts.size(); first = last) {
+      last = end_of_pair(contacts, first);
+      std::size_t c = first;
+      while (c < last && contacts.variants[c] == at_rest(c)) ++c;
+      if (c == last) continue;
+      const SlidingPoints<Operator, Law> points(problem, contacts.impulses, accuracy, first, last);
+      for (; c < last; ++c)
+        if (!points.slides(contacts, c)) contacts.variants[c] = at_rest(c);
     }
   }
   /// Index into the table of laws.

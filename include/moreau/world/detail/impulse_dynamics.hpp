@@ -283,7 +283,7 @@ class ImpulseDynamics {
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
     }
     laws_.choose_variants(problem_, context.materials, context.contacts,
-                          std::max(solver_tolerance(), report.solve.residual), shared_.get());
+                          std::max(solver_tolerance(), report.solve.residual));
     attraction_.take_from(impulses);
     problem_.delassus.from_rows(impulses, team_);
   }

@@ -2,7 +2,7 @@
 // Which contact points slide, for laws with static friction. A point slides if
 //
 //   1. its impulse lies on the cone of its law,
-//   2. its tangential velocity at the end of the step exceeds the rest speed: what the residual of the solver leaves,
+//   2. its tangential velocity at the end of the step exceeds the rest speed of its pair of bodies,
 //   3. its face slides: of the other points of the same two bodies that push with the same normal, none is slower than
 //      the rest speed; in space one may be, about which the face then turns. Under springs none may be.
 //
@@ -11,22 +11,26 @@
 // its static friction, its neighbours would have to bear more, and the face would slide below its threshold. Rigid bodies
 // with condition 2 satisfy condition 3. Springs do not: points of a face then slip one after another.
 //
-// The rest speed. Let rho be the largest of the solver's tolerance, SolveReport::residual, 1e-4 and sqrt(epsilon), w the mean
-// of the diagonal of W, and |r| the norm over the N contacts that push. The natural map of all contacts may be rho w |r|,
-// and so that of one contact, and its velocity if it sticks, is at most this; its root mean square is
-// rho w |r| / sqrt(N). The rest speed is
+// The rest speed of a pair of bodies. Let rho be the largest of the solver's tolerance, SolveReport::residual, 1e-4 and
+// sqrt(epsilon). Over the N points of the pair that push, let w be the mean of the diagonal of W, |r| the norm of the
+// impulses, and |m| that of the natural map in units of the velocity, with w. The rest speed is
 //
-//     min(sqrt(N), 3) rho w |r| / sqrt(N).
+//     max(3 rho w |r| / sqrt(N), |m|).
 //
-// It is about 3e-4 of the velocity that the impulse of a contact gives in a step, for a body that lies on a floor
-// 3e-4 g h. Smaller tolerances do not reduce it, because 1e-4 is their default: sweeps that start from points that bear
-// against each other let the face creep, by several times their residual, until its points bear in one direction.
+// The first term is about 3e-4 of the velocity that the impulse of a contact gives in a step, for a body that lies on a
+// floor 3e-4 g h. Smaller tolerances do not reduce it, because 1e-4 is their default: sweeps that start from points that
+// bear against each other let the face creep, by several times their residual, until its points bear in one direction.
+// The residual is relative to the impulses of all contacts. Beside a body of large mass the velocity of a light body can
+// therefore have an error far larger than the first term. The second term has this error: if a point should stick, its
+// velocity is its natural map.
+//
+// Bodies that the pair does not touch have no part in the first term. If it had the impulses of all contacts, a light body
+// would keep its static friction in slip because a heavy one rests elsewhere.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -34,11 +38,10 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
 
-/// Finds the contact points that slide, after the solve; the head of this file has the conditions.
+/// Finds the contact points of one pair of bodies that slide, after the solve; the head of this file has the conditions.
 template <class Operator, class Law>
 class SlidingPoints {
  public:
@@ -50,21 +53,23 @@ class SlidingPoints {
   /// @param problem  its operator carries the velocities of the impulses
   /// @param impulses rows of the operator, one per contact
   /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of these impulses
-  /// @param shared   bodies that other processes share: all processes call this; null: none
+  /// @param first    the first contact of the pair
+  /// @param last     the one after its last contact
   MOREAU_INLINED SlidingPoints(const Problem& problem, std::span<const Row> impulses,
-                               double accuracy, SharedBodies* shared)
+                               double accuracy, std::size_t first, std::size_t last)
       : problem_(problem),
         impulses_(impulses),
-        rest_speed_(rest_speed(problem.delassus, impulses, accuracy, shared)) {}
+        first_(first),
+        last_(last),
+        rest_speed_(rest_speed(accuracy)) {}
 
   /// Conditions 2 and 3.
   /// @param contacts those of the problem
+  /// @param c        contact of the pair
   MOREAU_INLINED bool slides(const DetectedContacts<S>& contacts, std::size_t c) const {
     if (rests(c)) return false;
     std::size_t resting = 0;
-    for (std::size_t other = first_of_pair(contacts, c);
-         other < contacts.size() && contacts.keys[other].bodies() == contacts.keys[c].bodies();
-         ++other)
+    for (std::size_t other = first_; other < last_; ++other)
       resting += impulses_[other][0] > 0 && in_one_plane(contacts, c, other) && rests(other);
     return resting <= pivots;
   }
@@ -73,21 +78,26 @@ class SlidingPoints {
   static constexpr bool springs = requires(const Operator op) { op.compliance(std::size_t()); };
   static constexpr std::size_t pivots = springs ? 0 : S::dim - 2;
 
-  MOREAU_INLINED static double rest_speed(const Operator& op, std::span<const Row> impulses,
-                                          double accuracy, SharedBodies* shared) {
-    double sums[] = {0, 0, 0, 0};  // |r|^2, N, trace of W, rows of W
-    for (std::size_t c = 0; c < op.size(); ++c) {
-      sums[0] += impulses[c].template cast<double>().squaredNorm();
-      sums[1] += impulses[c][0] != 0;
-      sums[2] += double(op.trace(c));
-      sums[3] += double(Row::RowsAtCompileTime);
+  MOREAU_INLINED double rest_speed(double accuracy) const {
+    const Operator& op = problem_.delassus;
+    double trace = 0, squared = 0, map = 0;
+    int pushing = 0;
+    for (std::size_t c = first_; c < last_; ++c) {
+      if (impulses_[c][0] == 0) continue;
+      ++pushing;
+      trace += double(op.trace(c));
+      squared += impulses_[c].template cast<double>().squaredNorm();
     }
-    if (shared) shared->sum(sums);
-    const double scale = sums[2] / std::max(sums[3], 1.0);
+    if (pushing == 0) return 0;
+    const double w = trace / (pushing * double(Row::RowsAtCompileTime));
+    for (std::size_t c = first_; c < last_; ++c) {
+      if (impulses_[c][0] == 0) continue;
+      const Row scaled = impulses_[c] * Scalar(w);
+      map += double(natural_map(problem_.law(c), op.velocity(c), scaled, Scalar(w)).squaredNorm());
+    }
     const double rounding = std::sqrt(double(std::numeric_limits<Scalar>::epsilon()));
     const double rho = std::max({accuracy, 1e-4, rounding});
-    return std::min(std::sqrt(sums[1]), 3.0) * rho * scale *
-           std::sqrt(sums[0] / std::max(sums[1], 1.0));
+    return std::max(3 * rho * w * std::sqrt(squared / pushing), std::sqrt(map));
   }
   /// Whether the normals of two contacts are equal to rounding.
   MOREAU_INLINED static bool in_one_plane(const DetectedContacts<S>& contacts, std::size_t c,
@@ -104,6 +114,7 @@ class SlidingPoints {
 
   const Problem& problem_;
   std::span<const Row> impulses_;
+  std::size_t first_, last_;
   double rest_speed_;  // [m/s]
 };
 
