@@ -304,6 +304,38 @@ TEST_CASE("a ball that rolls on a turntable runs on its circle, to second order"
   }
 }
 
+// A ball that spins about the common normal at the rate s rolls round the top of a fixed ball at a constant lean a, with
+// the rate p at which 7/5 d p^2 cos a - 2/5 r s p + g = 0; d is the distance of the centres.
+TEST_CASE("a spinning ball that rolls round on a ball at rest keeps its lean, to second order") {
+  const double obstacle = 0.1, radius = 0.02, lean = 0.3, spin = 400, gravity = 9.81;
+  const double apart = obstacle + radius, a = 1.4 * apart * std::cos(lean), b = 0.4 * radius * spin;
+  const double rate = (b - std::sqrt(b * b - 4 * a * gravity)) / (2 * a);
+  const Volume::Vector up = Volume::Vector::UnitZ();
+  const Volume::Vector normal(0, std::sin(lean), std::cos(lean)), start = apart * normal;
+  for (const double h : {2e-3, 5e-4}) {
+    CAPTURE(h);
+    World<Ball<>> world(0.04, friction<Ball<>>(1));
+    world.prescribe_motion(
+        world.add_grain(world.add_shape(Ball<>(obstacle)), Pose<Volume>(), 1000));
+    const BodyId ball =
+        world.add_grain(world.add_shape(Ball<>(radius)), {start, Volume::identity()}, 1000);
+    world.set_gravity(-gravity * up);
+    const Volume::Vector velocity = rate * up.cross(start);
+    world.set_velocity(ball, velocity);
+    world.set_spin(ball, spin * normal + normal.cross(velocity) / radius);
+    double off = 0;
+    for (int k = 1; k <= int(turn / rate / h); ++k) {
+      world.step(h);
+      const Volume::Vector x = world.pose(ball).position;
+      off = std::max(off, std::abs(std::acos(x[2] / x.norm()) - lean));
+    }
+    const double gyration = 0.4 * radius * spin / (1.4 * apart);  // of the nutation
+    CHECK(off < std::pow(gyration * h, 2));
+    const Volume::Vector end = world.pose(ball).position.normalized();
+    CHECK(std::abs(world.spin(ball).dot(end) / spin - 1) < 1e-5);
+  }
+}
+
 TEST_CASE("a ball that rolls round in a tube goes down and up and keeps its energy") {
   const double tube = 1, radius = 0.1, rate = 5, gravity = 9.81, path = tube - radius;
   const double swing = rate * std::sqrt(2.0 / 7), drop = 10.0 / 7 * gravity / (swing * swing);

@@ -51,6 +51,7 @@ class Placement {
   }
 
   const ShapeT& shape() const { return *shape_; }          ///< the shape that was placed
+  const Pose<S>& pose() const { return pose_; }            ///< of the shape, world axes [m]
   const Vector& center() const { return pose_.position; }  ///< the body's origin, world axes [m]
   /// Radius of a ball about the centre that contains the shape [m].
   Scalar radius() const requires HasCircumradius<ShapeT> { return shape_->circumradius(); }

@@ -8,6 +8,7 @@
 //     contact point has a normal of its own;
 //   - of a ball, its centre, with the radius of the ball subtracted from the gap;
 //   - of a capsule, the two ends of its core, with the radius subtracted in the same way;
+//   - of a Cylinder, up to two points of each rim, found as the next ones;
 //   - of a shape of which only the support function is known, two points, which are found by an
 //     iteration from either side of the shape. The two points coincide if the shape touches the
 //     wall at one point. If an edge or a face lies across the axis, they are its two ends. If an
@@ -19,6 +20,7 @@
 
 #include "moreau/detect/manifold.hpp"
 #include "moreau/detect/placed.hpp"
+#include "moreau/shape/cylinder.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 
 namespace moreau {
@@ -69,29 +71,47 @@ typename S::Vector any_radial(const Placed<CylinderWall<S>>& wall) {
   return longest.normalized();
 }
 
-/// A point of a shape with a maximal distance from the axis of the cylinder, relative to the centre
-/// of the shape, world axes [m]. It starts from the support point in `direction`. Each step takes
+/// A point of a convex set with a maximal distance from the axis of the cylinder, relative to the
+/// centre of the set, world axes [m]. It starts from the support point in `direction`. Each step takes
 /// the support point in the radial direction of the last point. By convexity each step increases
 /// the distance from the axis or is the last step.
-template <class ShapeT>
-typename SpaceOf<ShapeT>::Vector climb(const Placed<ShapeT>& a,
-                                       const Placed<CylinderWall<SpaceOf<ShapeT>>>& b,
-                                       const typename SpaceOf<ShapeT>::Vector& direction) {
-  using T = typename SpaceOf<ShapeT>::Scalar;
-  using Vector = typename SpaceOf<ShapeT>::Vector;
+/// @param offset  of the centre of the set from the centre of the wall, world axes [m]
+/// @param support the point of the set farthest in a direction, relative to its centre, world axes [m]
+template <class S>
+typename S::Vector climb(const Placed<CylinderWall<S>>& b, const typename S::Vector& offset,
+                         const typename S::Vector& direction, const auto& support) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
   constexpr int steps = 100;
-  const Vector offset = a.center() - b.center();
-  Vector best = a.support(direction);
+  Vector best = support(direction);
   for (int k = 0; k < steps; ++k) {
     const Vector outward = b.radial(offset + best);
     if (outward.isZero(0)) break;
-    const Vector next = a.support(outward);
+    const Vector next = support(outward);
     const T gain = b.radial(offset + next).norm() - outward.norm();
     if (!(gain > 4 * std::numeric_limits<T>::epsilon() * b.radius())) break;
     best = next;
   }
   return best;
 }
+/// Calls use(k, x) for k = 0, and for k = 1 if there is a second one, with points of a convex set that are farthest
+/// from the axis, on either side of its centre.
+/// @param near points closer together count as one [m]; for the others see climb()
+template <class S>
+void for_each_side(const Placed<CylinderWall<S>>& b, const typename S::Vector& offset,
+                   const auto& support, typename S::Scalar near, const auto& use) {
+  using Vector = typename S::Vector;
+  Vector outward = b.radial(offset);
+  outward = outward.isZero(0) ? any_radial(b) : Vector(outward.normalized());
+  const Vector across = S::spin(b.axis(), outward);
+  const Vector left = climb<S>(b, offset, Vector(outward + across), support);
+  const Vector right = climb<S>(b, offset, Vector(outward - across), support);
+  use(0u, left);
+  if ((left - right).norm() > near) use(1u, right);
+}
+
+/// Fraction of the size of a shape below which two of its points count as one.
+inline constexpr double near_points = 1e-3;
 
 /// Calls use(k, x, r) for each place at which a shape may touch the wall, k = 0, 1, ... The ball of
 /// radius r [m] about x touches the wall if and only if the shape touches it at this place. x is
@@ -102,16 +122,30 @@ void for_each_outermost(const Placed<ShapeT>& a, const Placed<CylinderWall<Space
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
-  constexpr T near = T(1e-3);  // fraction of the diagonal of the bounding box; points closer
-                               // together count as one point
-  Vector outward = b.radial(a.center() - b.center());
-  outward = outward.isZero(0) ? any_radial(b) : Vector(outward.normalized());
-  const Vector across = S::spin(b.axis(), outward);
-  const Vector left = climb(a, b, Vector(outward + across));
-  const Vector right = climb(a, b, Vector(outward - across));
   const Aabb<S> box = a.bounding_box();
-  use(0u, left, T(0));
-  if ((left - right).norm() > near * (box.upper - box.lower).norm()) use(1u, right, T(0));
+  for_each_side<S>(
+      b, a.center() - b.center(), [&](const Vector& direction) { return a.support(direction); },
+      T(near_points) * (box.upper - box.lower).norm(),
+      [&](std::uint32_t k, const Vector& x) { use(k, x, T(0)); });
+}
+template <std::floating_point T, class Use>
+void for_each_outermost(const Placed<Cylinder<T>>& a, const Placed<CylinderWall<Space<3, T>>>& b,
+                        Use&& use) {
+  using S = Space<3, T>;
+  using Vector = typename S::Vector;
+  const Cylinder<T>& shape = a.shape();
+  const Vector axis = a.pose().rotation * Vector(Vector::UnitX());
+  for (std::uint32_t rim = 0; rim < 2; ++rim) {
+    const Vector middle = (rim == 0 ? -shape.half_length() : shape.half_length()) * axis;
+    const auto support = [&](const Vector& direction) {
+      const Vector along = direction - axis * axis.dot(direction);
+      const T length = along.norm();
+      return length > 0 ? Vector(shape.radius() / length * along) : Vector(Vector::Zero());
+    };
+    for_each_side<S>(
+        b, Vector(a.center() - b.center() + middle), support, T(near_points) * shape.radius(),
+        [&](std::uint32_t k, const Vector& x) { use(2 * rim + k, Vector(middle + x), T(0)); });
+  }
 }
 template <class ShapeT, class Use>
 requires Polytope<ShapeT>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts with turning walls and with cylinders, to second order in the step h.
+// Contacts with turning walls, with cylinders and of balls with balls at rest, to second order in the step h.
 //
 // A material point at the lever X from the centre of a body that turns at w moves along an arc. Over a
 // step it is displaced by h (v + w x X + E(w) X), where
@@ -26,11 +26,11 @@
 // Ryckaert et al., J. Comput. Phys. 23 (1977) 327), which reflects this part and conserves the speed.
 //
 // Of rounded bodies the point that counts is that of the core: the centre of a ball, the end of the
-// segment of a capsule. Of grains of which only the support function is known it is the centre. X_a and X_b lead to
-// the point of the core of the body that touches the face of the other one. So a ball or a capsule that turns about
-// its own axis moves no point of a core, and nothing sinks into a roller. Where neither body has a face, as between two
-// balls, each X leads to the own core, and instead of the turning face there is the curvature, h/2 |u_t|^2 / d, with
-// the distance d of the cores.
+// segment of a capsule, a point of the axis of a Cylinder that is touched at its round side. Of other grains of which
+// only the support function is known it is the centre. X_a and X_b lead to the point of the core of the body that
+// touches the face of the other one. So a ball or a capsule that turns about its own axis moves no point of a core, and
+// nothing sinks into a roller. Where neither body has a face, as between two balls, each X leads to the own core, and
+// instead of the turning face there is the curvature, h/2 |u_t|^2 / d, with the distance d of the cores.
 //
 // A rounded grain that rolls along a face or a cylinder touches it at a place that moves with the velocity c, not with
 // the wall, and its lever from the core to this place turns with the normal, at the rate m. At the end of the step the
@@ -40,7 +40,8 @@
 //
 // beside the chords. Without it the velocities of the step lag behind the path by half a step: with h Omega = 0.005 a
 // ball that rolls on a turntable left its circle by 1.1 % of the radius per turn, and one that rolls round in a tube
-// lost half of its energy in 20 turns.
+// lost half of its energy in 20 turns. On a ball at rest the normal turns with the cores, m = r u_t / d with the radius
+// r of the ball that rolls: one that spins and rolls round on it lost its lean and 0.1 % of its spin per turn.
 //
 // A bond is fixed to a point of each body. Its X_a and X_b are its levers, nothing rolls, and its frame turns with both
 // bodies: the displacement of the points over the step is all.
@@ -56,9 +57,11 @@
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/detect/shape_kinds.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/shape/cylinder.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/world/bond.hpp"
@@ -85,21 +88,41 @@ template <class S>
 }
 
 /// Radius of the rounding around the core of a grain [m]; < 0 if it is not known.
+/// @param outward unit, in which the grain is touched, body axes
 template <class ShapeT>
-typename SpaceOf<ShapeT>::Scalar core_rounding(const ShapeT&) {
+typename SpaceOf<ShapeT>::Scalar core_rounding(const ShapeT&,
+                                               const typename SpaceOf<ShapeT>::Vector&) {
   return Polytope<ShapeT> ? 0 : -1;
 }
 template <class S>
-typename S::Scalar core_rounding(const BallIn<S>& ball) {
+typename S::Scalar core_rounding(const BallIn<S>& ball, const typename S::Vector&) {
   return ball.radius();
 }
+/// Of the round side, whose core is the axis. What stands on an end, or on a rim, does not roll about its axis.
+template <std::floating_point T>
+T core_rounding(const Cylinder<T>& cylinder, const typename Cylinder<T>::Vector& outward) {
+  return std::abs(outward[0]) < T(0.1) ? cylinder.radius() : T(-1);
+}
 template <class Core>
-typename SpaceOf<Core>::Scalar core_rounding(const Rounded<Core>& shape) {
-  return shape.radius() + std::max(typename SpaceOf<Core>::Scalar(0), core_rounding(shape.core()));
+typename SpaceOf<Core>::Scalar core_rounding(const Rounded<Core>& shape,
+                                             const typename SpaceOf<Core>::Vector& outward) {
+  return shape.radius() +
+         std::max(typename SpaceOf<Core>::Scalar(0), core_rounding(shape.core(), outward));
 }
 template <class... Shapes>
-auto core_rounding(const OneOf<Shapes...>& shape) {
-  return shape.visit([](const auto& held) { return core_rounding(held); });
+auto core_rounding(const OneOf<Shapes...>& shape,
+                   const typename SpaceOf<OneOf<Shapes...>>::Vector& outward) {
+  return shape.visit([&](const auto& held) { return core_rounding(held, outward); });
+}
+
+/// Whether a grain is a ball.
+template <class ShapeT>
+bool core_is_point(const ShapeT&) {
+  return moreau::is_ball<ShapeT>;
+}
+template <class... Shapes>
+bool core_is_point(const OneOf<Shapes...>& shape) {
+  return shape.visit([](const auto& held) { return core_is_point(held); });
 }
 
 /// The velocities to add to the relative velocities of contacts, so that these times h are displacements
@@ -115,17 +138,18 @@ class ChordVelocities {
   /// @param contacts of the bodies at their present poses
   /// @param step     h [s]: of the step that begins; -h for the step that ends; 0: none
   /// @returns one per contact, body b minus body a, world axes [m/s]; empty if no wall turns and there is no cylinder
+  ///          and no ball at rest
   std::span<const Vector> update(const Assembly<ShapeT>& assembly,
                                  const DetectedContacts<S>& contacts, Scalar step) {
     velocities_.clear();
-    find_turning(assembly);
-    if (step == 0 || turning_.empty()) return {};
+    find_marked(assembly);
+    if (step == 0 || marks_.empty()) return {};
     velocities_.assign(contacts.size(), Vector::Zero());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
-      if (!turning_[contact.a] && !turning_[contact.b]) continue;
-      const auto* cylinder = cylinder_of(assembly, contact.b);
       const ContactKey& key = contacts.keys[c];
+      if (!is_marked(assembly, contact, key)) continue;
+      const auto* cylinder = cylinder_of(assembly, contact.b);
       if (is_bond(key)) {
         velocities_[c] = between_points(assembly, contact, step);
         continue;
@@ -135,21 +159,47 @@ class ChordVelocities {
     }
     return velocities_;
   }
-  /// Whether a body of the last update() turns by prescription, or is a cylinder: its contacts have velocities.
-  bool has_any() const { return !turning_.empty(); }
+  /// Whether a body of the last update() turns by prescription, is a cylinder or a ball at rest: its contacts have
+  /// velocities.
+  bool has_any() const { return !marks_.empty(); }
 
  private:
-  /// Marks cylinders, and bodies with a rotation that is prescribed.
-  void find_turning(const Assembly<ShapeT>& assembly) {
+  /// Why the contacts of a body have chords: it is a ball that is prescribed not to turn, of which only the contacts
+  /// with balls have them; it turns by prescription, or is a cylinder.
+  enum Mark : unsigned char { unmarked, ball_at_rest, turns };
+
+  void find_marked(const Assembly<ShapeT>& assembly) {
     const Bodies<S>& bodies = assembly.bodies();
-    turning_.clear();
-    const auto mark = [&](std::size_t i) {
-      turning_.resize(bodies.size(), 0);
-      turning_[i] = 1;
+    marks_.clear();
+    const auto set = [&](std::size_t i, Mark mark) {
+      marks_.resize(bodies.size(), unmarked);
+      marks_[i] = mark;
     };
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (!bodies.rotates(i) && !angular<S>(bodies.velocity[i]).isZero(0)) mark(i);
-    for (const CylinderBody<S>& cylinder : assembly.cylinders()) mark(cylinder.body.index());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies.rotates(i)) continue;
+      if (!angular<S>(bodies.velocity[i]).isZero(0))
+        set(i, turns);
+      else if (is_ball(assembly, i))
+        set(i, ball_at_rest);
+    }
+    for (const CylinderBody<S>& cylinder : assembly.cylinders()) set(cylinder.body.index(), turns);
+  }
+  /// Whether a contact has a chord.
+  bool is_marked(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
+                 const ContactKey& key) const {
+    const unsigned char mark = std::max(marks_[contact.a], marks_[contact.b]);
+    return mark == turns || (mark == ball_at_rest && !is_bond(key) &&
+                             is_ball(assembly, contact.a) && is_ball(assembly, contact.b));
+  }
+  /// Whether a body is a ball, or several.
+  static bool is_ball(const Assembly<ShapeT>& assembly, std::size_t body) {
+    const Bodies<S>& bodies = assembly.bodies();
+    if (!(bodies.grain_mass[body] > 0)) return false;
+    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
+    if constexpr (CompoundShape<ShapeT>)
+      return core_is_point(shape.parts().front().shape);
+    else
+      return core_is_point(shape);
   }
   static const CylinderBody<S>* cylinder_of(const Assembly<ShapeT>& assembly, std::uint32_t body) {
     for (const CylinderBody<S>& cylinder : assembly.cylinders())
@@ -157,18 +207,20 @@ class ChordVelocities {
     return nullptr;
   }
 
-  static Scalar rounding_of(const ShapeT& shape, [[maybe_unused]] std::uint32_t part) {
-    if constexpr (CompoundShape<ShapeT>)
-      return core_rounding(shape.parts()[part].shape);
-    else
-      return core_rounding(shape);
-  }
   /// Radius of the rounding of a body [m]; 0 for a wall; < 0 if it is not known.
+  /// @param part    of the body
+  /// @param outward unit, in which the body is touched, world axes
   static Scalar rounding_of(const Assembly<ShapeT>& assembly, std::uint32_t body,
-                            std::uint32_t part) {
+                            [[maybe_unused]] std::uint32_t part, const Vector& outward) {
     const Bodies<S>& bodies = assembly.bodies();
     if (!(bodies.grain_mass[body] > 0)) return 0;
-    return rounding_of(assembly.shape_of(bodies.id[body]), part);
+    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
+    const Vector local = bodies.pose[body].rotation.inverse() * outward;
+    if constexpr (CompoundShape<ShapeT>)
+      return core_rounding(shape.parts()[part].shape,
+                           Vector(shape.parts()[part].pose.rotation.inverse() * local));
+    else
+      return core_rounding(shape, local);
   }
   /// From the point of the core of a body to the contact point [m]; of a grain that moves and whose core is not known
   /// the whole lever.
@@ -179,7 +231,7 @@ class ChordVelocities {
                                                        std::uint32_t body, std::uint32_t part,
                                                        const Vector& outward, const Vector& lever,
                                                        Scalar gap) {
-    const Scalar radius = rounding_of(assembly, body, part);
+    const Scalar radius = rounding_of(assembly, body, part, outward);
     if (radius < 0 && assembly.bodies().rotates(body)) return lever;
     return (std::max(Scalar(0), radius) + gap / 2) * outward;
   }
@@ -191,7 +243,7 @@ class ChordVelocities {
     };
     return excess(contact.b, contact.lever_b) - excess(contact.a, contact.lever_a);
   }
-  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed.
+  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed, below: the wall.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
                                                         const Contact<S>& contact,
                                                         const ContactKey& key, Scalar step) {
@@ -205,8 +257,9 @@ class ChordVelocities {
     const auto kind = key.feature.kind();
     // A contact without a face has that of the body that turns by prescription, if that is not round.
     const bool turning_is_a = !bodies.rotates(a);
-    const bool is_round = turning_is_a ? rounding_of(assembly, a, key.part_a) > 0
-                                       : rounding_of(assembly, b, key.part_b) > 0;
+    const Scalar of_side_a = rounding_of(assembly, a, key.part_a, normal),
+                 of_side_b = rounding_of(assembly, b, key.part_b, -normal);
+    const bool is_round = (turning_is_a ? of_side_a : of_side_b) > 0;
     const bool has_face = kind == face_of_a || kind == face_of_b || !is_round;
     const bool owner_is_a = kind == face_of_a || (kind != face_of_b && turning_is_a);
     const Vector lever_a = contact.lever_a - (has_face && owner_is_a ? core_b : core_a),
@@ -214,21 +267,21 @@ class ChordVelocities {
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
     const Vector slip =
         velocity_at<S>(bodies.velocity[b], lever_b) - velocity_at<S>(bodies.velocity[a], lever_a);
+    const Vector sliding = slip - normal.dot(slip) * normal;
+    const Scalar apart = has_face ? 0 : (core_a - core_b).norm();
     Scalar bend = 0;
     if (has_face)
       bend = step * S::spin(owner_is_a ? of_a : of_b, normal).dot(slip);
-    else if (const Scalar apart = (core_a - core_b).norm(); apart > 0)
-      bend = step / 2 * (slip.squaredNorm() - std::pow(normal.dot(slip), 2)) / apart;
+    else if (apart > 0)
+      bend = step / 2 * sliding.squaredNorm() / apart;
     Vector sum = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
-    if (has_face && owner_is_a == turning_is_a) {
+    const Scalar rounding = turning_is_a ? of_side_b : of_side_a;
+    if (rounding > 0 && (has_face ? owner_is_a == turning_is_a : apart > 0)) {
       const Scalar sign = turning_is_a ? -1 : 1;
-      const Vector& core = turning_is_a ? core_b : core_a;
-      const Scalar rounding = turning_is_a ? rounding_of(assembly, b, key.part_b)
-                                           : rounding_of(assembly, a, key.part_a);
       const Angular &of_wall = turning_is_a ? of_a : of_b, &of_grain = turning_is_a ? of_b : of_a;
-      if (rounding > 0)
-        sum += sign * rolling(normal, of_grain, of_wall, S::spin(of_wall, core),
-                              Vector(sign * slip), step);
+      const Vector swing = has_face ? S::spin(of_wall, turning_is_a ? core_b : core_a)
+                                    : Vector(sign * rounding / apart * sliding);
+      sum += sign * rolling(normal, of_grain, of_wall, swing, Vector(sign * slip), step);
     }
     return sum + bend * normal;
   }
@@ -271,7 +324,7 @@ class ChordVelocities {
     // Only a wall that turns does work on a grain that rests on it.
     Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
                                 : Vector(chord_excess<S>(of_b, lever_b, step) - own);
-    if (radius > contact.gap && rounding_of(assembly, a, key.part_a) > 0) {
+    if (radius > contact.gap && rounding_of(assembly, a, key.part_a, normal) > 0) {
       const Vector around = S::spin(axis, normal);
       const Vector swing = -around.dot(slip) / (radius - contact.gap) * shift.dot(normal) * around;
       sum += rolling(normal, of_a, of_b, swing,
@@ -280,8 +333,8 @@ class ChordVelocities {
     return sum + (along_normal - normal.dot(sum)) * normal;
   }
 
-  List<unsigned char> turning_;  // one per body; empty if there is none
-  List<Vector> velocities_;      // one per contact
+  List<unsigned char> marks_;  // one Mark per body; empty if all are unmarked
+  List<Vector> velocities_;    // one per contact
 };
 
 /// Adds the second-order terms of contact c to its free relative velocity. A normal term that pushes is at
