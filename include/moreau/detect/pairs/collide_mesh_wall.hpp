@@ -175,9 +175,17 @@ class MeshCollision {
     std::uint32_t place = 0;
     const Vector most = Vector::Constant(deepest + pair_.near);
     const Aabb<S> nearby{pair_.center - most, pair_.center + most};
-    for (const NearFacet& facet : region.facets) {
+    const auto counts = [&](const NearFacet& facet) {
       const Aabb<S>& box = pair_.wall.box(facet.place);
-      if (!box.overlaps(nearby) || !box.overlaps(region.around)) continue;
+      return box.overlaps(nearby) && box.overlaps(region.around);
+    };
+    // Most centres are in front of all facets near them.
+    if (std::none_of(region.facets.begin(), region.facets.end(), [&](const NearFacet& facet) {
+          return counts(facet) && pair_.height(pair_.wall.side(facet.place)) < 0;
+        }))
+      return;
+    for (const NearFacet& facet : region.facets) {
+      if (!counts(facet)) continue;
       const auto& side = pair_.wall.side(facet.place);
       const Vector nearest =
           nearest_on_facet(typename S::Matrix(side.corners.colwise() - pair_.center));
