@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <doctest/doctest.h>
-#include <memory>
 #include <vector>
 
-#include "moreau/parallel/thread_team.hpp"
 #include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
+
+#include "threads/eager_team.hpp"
 
 namespace threads_test {
 
@@ -29,22 +29,6 @@ inline constexpr int team_sizes[] = {2, 3};
 inline constexpr int steps = 150;
 inline constexpr int team_sizes[] = {2, 3, 4, 8};
 #endif
-
-/// Lets a team share its work from now on, without measuring whether this is faster.
-class EagerThreads final : public TeamThreads {
- public:
-  explicit EagerThreads(int size) : pool_(size) { shares = true; }
-  int size() const override { return pool_.size(); }
-  void run(const Work& work) override { pool_.run(work); }
-  bool begin(TimedWork) override { return true; }
-  void end(TimedWork, std::size_t) override {}
-
- private:
-  detail::ThreadPool pool_;
-};
-inline Team eager(int size) {
-  return Team(std::make_shared<EagerThreads>(size));
-}
 
 inline constexpr double grain_size = 0.02;  // of the grains [m]
 

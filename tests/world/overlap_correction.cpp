@@ -7,15 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <doctest/doctest.h>
-#include <memory>
 #include <random>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "moreau/parallel/thread_team.hpp"
+#include "moreau/solve/body_chunks.hpp"
 
 #include "solve/assembly.hpp"
+#include "threads/eager_team.hpp"
 #include "types.hpp"
 
 using namespace solve_test;
@@ -41,6 +41,23 @@ OverlapCorrectionOptions sweeps_only(int sweeps) {
   return options;
 }
 
+/// The contacts in the order of the sweeps: inside the chunks of bodies, chunk after chunk, then between chunks.
+template <class S>
+std::vector<std::size_t> order_of(const Assembly<S>& assembly) {
+  detail::BodyChunks chunks;
+  chunks.assign(assembly.roots.size(), detail::OverlapSweeps<S>::bodies_of_chunk);
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;
+  for (std::size_t c = 0; c < assembly.contacts.size(); ++c) {
+    const Contact<S>& contact = assembly.contacts[c];
+    const auto moves = [&](std::uint32_t i) { return assembly.op.inverse_mass(i).moves(); };
+    order.emplace_back(chunks.of_pair(contact.a, contact.b, moves(contact.a), moves(contact.b)), c);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> contacts;
+  for (const auto& [chunk, c] : order) contacts.push_back(c);
+  return contacts;
+}
+
 /// The same problem, contact after contact, without leaving out any.
 template <class S>
 std::vector<typename S::Twist> plain_shifts(const Assembly<S>& assembly,
@@ -48,8 +65,9 @@ std::vector<typename S::Twist> plain_shifts(const Assembly<S>& assembly,
   using T = typename S::Scalar;
   std::vector<typename S::Twist> shifts(assembly.roots.size(), S::Twist::Zero());
   std::vector<T> pushes(assembly.contacts.size(), 0);
+  const std::vector<std::size_t> order = order_of(assembly);
   for (int k = 0; k < options.sweeps; ++k)
-    for (std::size_t c = 0; c < pushes.size(); ++c) {
+    for (const std::size_t c : order) {
       const Contact<S>& contact = assembly.contacts[c];
       const typename S::Vector n = contact.frame.col(0);
       const T depth = -(contact.gap + T(options.slop));
@@ -125,14 +143,13 @@ TEST_CASE_TEMPLATE("overlap correction: threads change no bit", S,
                    MOREAU_TYPES((Space<3>), (Space<2>))) {
   using T = typename S::Scalar;
   auto assembly = Assembly<S>::lattice(50, 4, T(1e-4));
+  CHECK(assembly.contacts.size() > 4096);  // below, the sweeps are not shared
   set_gaps(assembly, 5, 2);
   std::vector<typename S::Twist> alone;
   for (const int threads : {1, 2, 3, 8}) {
     OverlapCorrection<S> correction(sweeps_only(10));
-    auto pool = std::make_shared<detail::ThreadPool>(threads);
-    pool->shares = true;
     const auto report =
-        correction.solve(assembly.op, assembly.contacts, T(1), Team(std::move(pool)));
+        correction.solve(assembly.op, assembly.contacts, T(1), threads_test::eager(threads));
     CHECK(report.corrected > 2000);
     if (threads == 1) alone.assign(correction.shifts().begin(), correction.shifts().end());
     CHECK(std::equal(alone.begin(), alone.end(), correction.shifts().begin()));

@@ -63,7 +63,7 @@ class TeamBarrier {
 };
 
 /// Kinds of work that are timed, see Team::run_timed().
-enum class TimedWork { detection, sweep, full_sweep };
+enum class TimedWork { detection, correction, sweep, full_sweep };
 
 /// The threads of a team; derive from it for threads of your own.
 class TeamThreads {
@@ -146,16 +146,19 @@ class Team {
   }
 
   /// Runs work(rank, size, wait) and measures the time. The work is shared if this is faster, and so
-  /// is what follows until the next work that is timed.
+  /// is what follows until the next work that is timed; what follows a correction is shared as before.
   /// @param amount of work, in a unit that is the same for all work of the kind
   /// @param least  amount below which the work is neither shared nor timed
   void run_timed(TimedWork kind, std::size_t amount, std::size_t least,
                  const TeamThreads::Work& work) const {
     if (!threads_) return run(work);
-    const bool is_timed = amount >= least;
+    const bool is_timed = amount >= least, shared = shares();
     threads_->shares.store(is_timed && threads_->begin(kind), std::memory_order_relaxed);
-    const EndOfWork end{is_timed ? threads_.get() : nullptr, kind, amount};
-    run(work);
+    {
+      const EndOfWork end{is_timed ? threads_.get() : nullptr, kind, amount};
+      run(work);
+    }
+    if (kind == TimedWork::correction) threads_->shares.store(shared, std::memory_order_relaxed);
   }
 
  private:

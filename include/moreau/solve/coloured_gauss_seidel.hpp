@@ -136,7 +136,7 @@ class ColouredGaussSeidel {
     islands.start(problem, impulses, options_.velocity_tolerance);
     if (islands.empty()) return sweep(problem, impulses, workspace);
     SolveReport report;
-    const bool solved = islands.all_solved();
+    const bool solved = islands.all_meet_tolerance();
     if (solved) judge(problem, impulses, true, islands, report);
     if (solved && report.converged) return report;
     islands.save(impulses);
@@ -145,13 +145,14 @@ class ColouredGaussSeidel {
       islands.write(report);
       return report;
     }
-    const bool swept = report.converged;
+    const bool sweeps_converged = report.converged;
     const double residual = report.residual;
     workspace.first.assign(impulses.begin(), impulses.end());
-    islands.finish(problem, impulses, report.sweeps, swept);
+    islands.finish(problem, impulses, report.sweeps, sweeps_converged);
     if (!islands.attempted()) return report;
-    judge(problem, impulses, swept, islands, report);
-    if (!swept || report.residual <= std::max(residual, options_.tolerance)) return report;
+    judge(problem, impulses, sweeps_converged, islands, report);
+    if (!sweeps_converged || report.residual <= std::max(residual, options_.tolerance))
+      return report;
     // Under tolerances near rounding sweeps go on from even pressures, and keep them.
     if (islands.made_even()) {
       const int before = report.sweeps;
@@ -163,21 +164,21 @@ class ColouredGaussSeidel {
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
     islands.roll_back();
-    judge(problem, impulses, swept, islands, report);
+    judge(problem, impulses, sweeps_converged, islands, report);
     return report;
   }
 
   /// Measures impulses of which some are those of islands.
-  /// @param swept whether sweeps, if there were any, met their stopping test
+  /// @param sweeps_converged whether sweeps, if there were any, met their stopping test
   template <class Operator, class Law>
   void judge(ContactProblem<Operator, Law>& problem, std::span<typename Operator::Vector> impulses,
-             bool swept, const detail::IslandSolver<Operator, Law>& islands,
+             bool sweeps_converged, const detail::IslandSolver<Operator, Law>& islands,
              SolveReport& report) const {
     detail::set_impulses<Operator>(problem.delassus, impulses);
     islands.move(problem.delassus);
     measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
     islands.write(report);
-    const bool by_changes = options_.stop_test == StopTest::qm16 && swept;
+    const bool by_changes = options_.stop_test == StopTest::qm16 && sweeps_converged;
     report.converged = (by_changes ? detail::is_closed(report) : is_solved(report)) &&
                        report.unsolved_islands == 0;
     report.capped = !report.converged;

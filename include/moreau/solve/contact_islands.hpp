@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,31 +14,45 @@
 
 namespace moreau::detail {
 
-/// The islands of a contact problem: sets of bodies that contacts connect. A body that cannot move
+/// The small islands of a contact problem. An island is a set of bodies that contacts connect. A body that cannot move
 /// connects nothing. No impulse of one island changes a velocity of another.
 ///
 /// Islands are in the order of their first contact, and contacts within an island in that of the
-/// problem.
+/// problem. The contacts of large islands are not listed: a packing is one island of nearly all contacts.
 class ContactIslands {
  public:
-  /// @param op the operator of the problem
+  /// @param op          the operator of the problem
+  /// @param most_bodies of a small island
   template <class Operator>
-  void find(const Operator& op) {
+  void find(const Operator& op, std::size_t most_bodies) {
     const std::size_t bodies = op.body_count(), contacts = op.size();
     sets_.assign(bodies);
     moves_.resize(bodies);
     for (std::size_t i = 0; i < bodies; ++i) moves_[i] = op.inverse_mass(i).moves();
+    found_.assign(bodies, {none, 0, 0});
     std::array<std::uint32_t, 2> before{none, none};
+    std::uint32_t root = none;  // of the set of before[0]
     for (std::size_t c = 0; c < contacts; ++c) {
       const auto pair = op.bodies(c);
-      if (pair == before || !moves_[pair[0]] || !moves_[pair[1]]) continue;
+      if (pair == before) continue;
+      const auto [a, b] = pair;
+      found_[a].bodies = moves_[a];
+      found_[b].bodies = moves_[b];
+      if (a != before[0]) root = sets_.find(a);
       before = pair;
-      sets_.unite(pair[0], pair[1]);
+      if (!moves_[a] || !moves_[b]) continue;
+      ++found_[a].pairs;
+      const std::uint32_t other = sets_.find(b);
+      if (other == root) continue;
+      sets_.unite(root, other);
+      root = std::min(root, other);
     }
-    number(op, contacts);
+    number(op, contacts, most_bodies);
   }
 
-  std::size_t size() const { return bodies_.size(); }  ///< number of islands
+  std::size_t size() const { return bodies_.size(); }  ///< number of small islands
+  /// Whether there are large islands.
+  bool has_large() const { return has_large_; }
   /// Number of bodies of an island that can move and have a contact.
   std::size_t bodies(std::size_t island) const { return bodies_[island]; }
   /// Number of pairs of bodies of an island that both move and have contacts. Contacts of a pair that do not follow one
@@ -54,21 +69,41 @@ class ContactIslands {
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+  /// Of each body, and of the island in which it has the smallest number.
+  struct Found {
+    std::uint32_t island;  // its number; none: not small, or not numbered yet
+    std::uint32_t bodies;  // that can move and have a contact
+    std::uint32_t pairs;   // of bodies that can move
+  };
+
   template <class Operator>
-  void number(const Operator& op, std::size_t contacts) {
-    island_of_.assign(sets_.size(), none);
-    seen_.assign(sets_.size(), 0);
-    of_contact_.resize(contacts);
+  void number(const Operator& op, std::size_t contacts, std::size_t most_bodies) {
     bodies_.clear();
     pairs_.clear();
     first_.assign(2, 0);
+    bool has_small = false;
+    has_large_ = false;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const std::uint32_t root = sets_.find(i);  // at most i
+      if (root == i) continue;
+      found_[root].bodies += found_[i].bodies;
+      found_[root].pairs += found_[i].pairs;
+      found_[i] = {none, 0, 0};
+    }
+    for (const Found& island : found_) {
+      has_large_ = has_large_ || island.bodies > most_bodies;
+      has_small = has_small || (island.bodies > 0 && island.bodies <= most_bodies);
+    }
+    if (!has_small) return;
+    of_contact_.resize(contacts);
     std::array<std::uint32_t, 2> before{none, none};
+    std::uint32_t island = none;
     for (std::size_t c = 0; c < contacts; ++c) {
       const auto pair = op.bodies(c);
-      if (pair != before) take(pair);
+      if (pair != before) island = island_of(pair, most_bodies);
       before = pair;
-      of_contact_[c] = present_;
-      if (present_ != none) ++first_[present_ + 2];
+      of_contact_[c] = island;
+      if (island != none) ++first_[island + 2];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
@@ -77,28 +112,26 @@ class ContactIslands {
       if (of_contact_[c] != none) contacts_[first_[of_contact_[c] + 1]++] = c;
   }
 
-  /// Finds the island of a pair of bodies.
-  void take(const std::array<std::uint32_t, 2>& pair) {
+  /// The small island of a pair of bodies, which gets a number.
+  std::uint32_t island_of(const std::array<std::uint32_t, 2>& pair, std::size_t most_bodies) {
     const auto [a, b] = pair;
-    present_ = none;
-    if (!moves_[a] && !moves_[b]) return;
-    std::uint32_t& island = island_of_[sets_.find(moves_[a] ? a : b)];
-    if (island == none) {
-      island = static_cast<std::uint32_t>(bodies_.size());
-      bodies_.push_back(0);
-      pairs_.push_back(0);
+    if (!moves_[a] && !moves_[b]) return none;
+    Found& found = found_[sets_.find(moves_[a] ? a : b)];
+    if (found.bodies > most_bodies) return none;
+    if (found.island == none) {
+      found.island = static_cast<std::uint32_t>(bodies_.size());
+      bodies_.push_back(found.bodies);
+      pairs_.push_back(found.pairs);
       first_.push_back(0);
     }
-    present_ = island;
-    pairs_[island] += moves_[a] && moves_[b];
-    for (const std::uint32_t body : {a, b})
-      if (moves_[body] && !seen_[body]) seen_[body] = 1, ++bodies_[island];
+    return found.island;
   }
 
-  std::uint32_t present_ = none;  // island of the pair taken last
+  bool has_large_ = false;
   DisjointSets sets_;
-  List<std::uint32_t> island_of_, of_contact_, contacts_;
-  List<unsigned char> moves_, seen_;
+  List<Found> found_;
+  List<std::uint32_t> of_contact_, contacts_;
+  List<unsigned char> moves_;
   List<std::size_t> bodies_, pairs_, first_;
 };
 

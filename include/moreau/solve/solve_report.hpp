@@ -11,7 +11,8 @@ struct SolveReport {
   int sweeps = 0;         ///< passes over all contacts, those of a first attempt included
   bool converged = true;  ///< the stopping test was met
   /// Not converged: the cap on sweeps was reached before the stopping test was met with
-  /// relative_approach <= max_relative_approach, or islands are unsolved.
+  /// relative_approach <= max_relative_approach, islands are unsolved, or the strengths of bonds may still
+  /// change after the last solution of the step.
   bool capped = false;
 
   /// Natural-map residual || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the

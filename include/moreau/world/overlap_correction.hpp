@@ -95,20 +95,25 @@ class OverlapCorrection {
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size,
                  largest = static_cast<Scalar>(options_.max_shift) * grain_size;
+    sweeps_.start(op.inverse_masses());
     const Depths depths = find_depths(contacts, slop, largest, team);
     report.corrected = depths.corrected;
     report.limited = depths.limited;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
-    const Scalar longest = list_candidates(op, contacts, slop, team);
-    sweeps_.start(op.inverse_masses(), contacts.size());
     if (options_.islands && !shared) correct_islands(op, contacts, slop, largest);
     const Scalar guess =
         5 * depths.asked / static_cast<Scalar>(std::max<std::size_t>(1, depths.corrected));
+    shifted_.resize(shifts_.size());
     sweeps_.run(
-        options_.sweeps, op, contacts, candidates_, guess, std::sqrt(longest),
-        [&](Scalar depth) { return target(depth, largest); }, team, shared);
-    std::copy(sweeps_.shifts().begin(), sweeps_.shifts().end(), shifts_.begin());
-    limit(largest, grain_size / 2);
+        options_.sweeps, op, contacts, std::span<const Scalar>(depths_), guess,
+        std::sqrt(depths.longest), [&](Scalar depth) { return target(depth, largest); },
+        [&](std::size_t i, const typename S::Twist& shift) {
+          if (shift.isZero(0))
+            shifted_[i] = 0;
+          else
+            limit(i, shift, largest, grain_size / 2);
+        },
+        team, shared);
     return report;
   }
 
@@ -127,52 +132,38 @@ class OverlapCorrection {
   friend struct detail::StateAccess;
   auto serialized_members() { return std::tie(options_, shifts_); }
 
-  using Candidate = typename detail::OverlapSweeps<S>::Candidate;
-
   /// Of all contacts.
   struct Depths {
     std::size_t corrected = 0, limited = 0;  // as in the report
-    Scalar asked = 0;  // sum of the changes of gaps that deep contacts ask for [m]
+    Scalar asked = 0;    // sum of the changes of gaps that deep contacts ask for [m]
+    Scalar longest = 0;  // square of the longest lever of a body that rotates [m^2]
     void add(const Depths& other) {
       asked += other.asked;
       corrected += other.corrected;
       limited += other.limited;
+      longest = std::max(longest, other.longest);
     }
   };
+  /// Fills depths_.
   Depths find_depths(std::span<const Contact<S>> contacts, Scalar slop, Scalar largest,
-                     const Team& team) const {
-    return detail::sum_of<Depths>(team, contacts.size(), [&](Depths& depths, std::size_t c) {
-      const Scalar depth = -(contacts[c].gap + slop);
-      if (!(depth > 0)) return;
-      depths.add({1, static_cast<Scalar>(options_.rate) * depth > largest, target(depth, largest)});
-    });
-  }
-  /// Fills candidates_ with all contacts.
-  /// @returns the square of the longest lever of a body that rotates [m^2]
-  template <class Operator>
-  Scalar list_candidates(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
-                         const Team& team) {
-    struct Longest {
-      Scalar square = 0;
-      void add(const Longest& other) { square = std::max(square, other.square); }
-    };
-    turns_.resize(op.body_count());
-    for (std::size_t i = 0; i < turns_.size(); ++i) {
-      const auto& angular = op.inverse_mass(i).angular();
-      turns_[i] = std::any_of(angular.begin(), angular.end(), [](Scalar x) { return x != 0; });
-    }
-    candidates_.resize(contacts.size());
-    return detail::sum_of<Longest>(team, contacts.size(),
-                                   [&](Longest& longest, std::size_t c) {
-                                     const Contact<S>& contact = contacts[c];
-                                     candidates_[c] = {-(contact.gap + slop), contact.a, contact.b,
-                                                       static_cast<std::uint32_t>(c)};
-                                     if (turns_[contact.a])
-                                       longest.add({contact.lever_a.squaredNorm()});
-                                     if (turns_[contact.b])
-                                       longest.add({contact.lever_b.squaredNorm()});
-                                   })
-        .square;
+                     const Team& team) {
+    depths_.resize(contacts.size());
+    return detail::sum_of_parts<Depths>(
+        team, contacts.size(), [&](std::size_t begin, std::size_t end) {
+          Depths depths;
+          for (std::size_t c = begin; c < end; ++c) {
+            const Contact<S>& contact = contacts[c];
+            const Scalar depth = depths_[c] = -(contact.gap + slop);
+            if (depth > 0)
+              depths.add({1, static_cast<Scalar>(options_.rate) * depth > largest,
+                          target(depth, largest), 0});
+            if (sweeps_.rotates(contact.a))
+              depths.longest = std::max(depths.longest, contact.lever_a.squaredNorm());
+            if (sweeps_.rotates(contact.b))
+              depths.longest = std::max(depths.longest, contact.lever_b.squaredNorm());
+          }
+          return depths;
+        });
   }
 
   /// Least change of a gap [m].
@@ -189,27 +180,28 @@ class OverlapCorrection {
     constexpr std::size_t most_bodies = 200;
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
-    islands_.find(op);
-    pushes_.assign(contacts.size(), S::Vector::Zero());
-    const auto is_deep = [&](std::uint32_t c) { return candidates_[c].depth > slop / 100; };
+    islands_.find(op, most_bodies);
+    pushes_.clear();
+    const auto is_deep = [&](std::uint32_t c) { return depths_[c] > slop / 100; };
     const auto free = [&](std::size_t c) {
       typename S::Vector offset = S::Vector::Zero();
-      offset[0] = -target(candidates_[c].depth, largest);
+      offset[0] = -target(depths_[c], largest);
       return offset;
     };
     const auto frictionless = [](std::size_t) { return 0.0; };
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto own = islands_.contacts(k);
       // The bodies touch like those of a column, an arch or a tree if no more pairs do than there are bodies.
-      if (own.size() < 2 || islands_.bodies(k) > most_bodies ||
-          islands_.pairs(k) > islands_.bodies(k) || std::none_of(own.begin(), own.end(), is_deep))
+      if (own.size() < 2 || islands_.pairs(k) > islands_.bodies(k) ||
+          std::none_of(own.begin(), own.end(), is_deep))
         continue;
+      if (pushes_.empty()) pushes_.resize(contacts.size(), S::Vector::Zero());
       newton_.assign(op, own, islands_.moves(), free, frictionless);
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);
       for (const std::uint32_t c : own) {
-        candidates_[c].depth = -std::numeric_limits<Scalar>::infinity();  // never taken
+        depths_[c] = -std::numeric_limits<Scalar>::infinity();  // never taken
         if (pushes_[c][0] == 0) continue;
         typename S::Vector along_normal = contacts[c].frame.col(0);
         along_normal *= pushes_[c][0];
@@ -220,17 +212,12 @@ class OverlapCorrection {
     }
   }
 
-  /// Shortens shifts by which a body would move farther than `largest` [m].
+  /// Shortens the shift of a body that would move farther than `largest` [m].
   /// @param radius distance from the centre at which rotations are measured [m]
-  void limit(Scalar largest, Scalar radius) {
-    shifted_.assign(shifts_.size(), 0);
-    for (std::size_t i = 0; i < shifts_.size(); ++i) {
-      typename S::Twist& shift = shifts_[i];
-      if (shift.isZero(0)) continue;
-      shifted_[i] = 1;
-      const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
-      if (length > largest) shift *= largest / length;
-    }
+  void limit(std::size_t body, const typename S::Twist& shift, Scalar largest, Scalar radius) {
+    const Scalar length = std::max(linear<S>(shift).norm(), radius * angular<S>(shift).norm());
+    shifts_[body] = length > largest ? typename S::Twist(largest / length * shift) : shift;
+    shifted_[body] = 1;
   }
 
   using Newton = detail::IslandNewton<S>;
@@ -239,8 +226,7 @@ class OverlapCorrection {
   detail::ContactIslands islands_;
   Newton newton_;
   List<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
-  List<unsigned char> turns_;        // bodies that can rotate
-  List<Candidate> candidates_;       // contacts
+  List<Scalar> depths_;              // of contacts: overlap beyond the slop [m]
   detail::OverlapSweeps<S> sweeps_;
   List<typename S::Twist> shifts_;
   List<unsigned char> shifted_;  // bodies whose shift is not zero; empty: none

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -66,8 +67,11 @@ class RankSharing : public Base {
   /// The data that are exchanged with one rank.
   struct Peer {
     std::vector<std::uint32_t> send, receive;  // bodies, ascending
-    Flags asked, answered;                     // touched: one per lent grain, one per ghost
-    std::vector<std::int32_t> told, heard;     // the ranks of each grain that was touched
+    // Whether the other rank touches each grain that this rank lends it, and this rank each ghost.
+    Flags lent_touched, ghosts_touched;
+    // For each of these that is touched: the number of ranks that touch it, and the ranks.
+    std::vector<std::int32_t> sent_ranks, received_ranks;
+    std::uint32_t sent_count, received_count;  // their lengths
     std::vector<unsigned char> out, in;
   };
   /// A shared grain.
@@ -85,20 +89,21 @@ class RankSharing : public Base {
   void find_grains(std::span<const unsigned char> touched) {
     for (std::size_t other = 0; other < peers_.size(); ++other) {
       Peer& peer = peers_[other];
-      peer.answered.clear();
-      for (const std::uint32_t i : topology.ghosts[other]) peer.answered.push_back(touched[i]);
-      peer.asked.resize(topology.lent[other].size());
-      processes_.receive(peer.asked.data(), peer.asked.size(), int(other));
-      processes_.send(peer.answered.data(), peer.answered.size(), int(other));
+      peer.ghosts_touched.clear();
+      for (const std::uint32_t i : topology.ghosts[other])
+        peer.ghosts_touched.push_back(touched[i]);
+      peer.lent_touched.resize(topology.lent[other].size());
+      processes_.receive(peer.lent_touched.data(), peer.lent_touched.size(), int(other));
+      processes_.send(peer.ghosts_touched.data(), peer.ghosts_touched.size(), int(other));
     }
     processes_.wait();
     gather_ranks(touched);
-    tell_ranks();
+    send_ranks();
     for (std::size_t g = 0; g < grains_.size(); ++g)
       share(grains_[g].first,
             std::span(ranks_).subspan(grains_[g].second.first, grains_[g].second.second),
             topology.rank);
-    hear_ranks();
+    take_ranks();
     // Bodies in ascending order, so that both sides of a message agree about its content.
     std::sort(shared_.begin(), shared_.end(),
               [](const Shared& a, const Shared& b) { return a.body < b.body; });
@@ -109,7 +114,7 @@ class RankSharing : public Base {
     touching_.clear();
     for (std::size_t other = 0; other < peers_.size(); ++other)
       for (std::size_t k = 0; k < topology.lent[other].size(); ++k)
-        if (peers_[other].asked[k])
+        if (peers_[other].lent_touched[k])
           touching_.push_back({topology.lent[other][k], std::int32_t(other)});
     const std::size_t others = touching_.size();
     for (std::size_t k = 0; k < others; ++k)
@@ -127,47 +132,52 @@ class RankSharing : public Base {
     }
   }
   /// Tells each rank that touches a grain of this rank which other ranks do.
-  void tell_ranks() {
+  void send_ranks() {
     for (std::size_t other = 0; other < peers_.size(); ++other) {
       Peer& peer = peers_[other];
-      peer.told.clear();
+      peer.sent_ranks.clear();
       for (std::size_t k = 0; k < topology.lent[other].size(); ++k) {
-        if (!peer.asked[k]) continue;
+        if (!peer.lent_touched[k]) continue;
         const auto grain =
             std::lower_bound(grains_.begin(), grains_.end(), topology.lent[other][k],
                              [](const auto& one, std::uint32_t body) { return one.first < body; });
         const auto [first, count] = grain->second;
-        peer.told.push_back(std::int32_t(count));
-        peer.told.insert(peer.told.end(), ranks_.begin() + std::ptrdiff_t(first),
-                         ranks_.begin() + std::ptrdiff_t(first + count));
+        peer.sent_ranks.push_back(std::int32_t(count));
+        peer.sent_ranks.insert(peer.sent_ranks.end(), ranks_.begin() + std::ptrdiff_t(first),
+                               ranks_.begin() + std::ptrdiff_t(first + count));
       }
     }
     // First how many numbers there are, then the numbers.
-    std::vector<std::uint32_t> out(peers_.size()), in(peers_.size());
     for (std::size_t other = 0; other < peers_.size(); ++other) {
-      const bool asks = !topology.ghosts[other].empty(), is_asked = !topology.lent[other].empty();
-      out[other] = std::uint32_t(peers_[other].told.size());
-      if (asks) processes_.receive(&in[other], sizeof in[other], int(other));
-      if (is_asked) processes_.send(&out[other], sizeof out[other], int(other));
+      Peer& peer = peers_[other];
+      peer.sent_count = std::uint32_t(peer.sent_ranks.size());
+      peer.received_count = 0;
+      if (!topology.ghosts[other].empty())
+        processes_.receive(&peer.received_count, sizeof peer.received_count, int(other));
+      if (!topology.lent[other].empty())
+        processes_.send(&peer.sent_count, sizeof peer.sent_count, int(other));
     }
     processes_.wait();
     for (std::size_t other = 0; other < peers_.size(); ++other) {
       Peer& peer = peers_[other];
-      peer.heard.resize(in[other]);
-      processes_.receive(peer.heard.data(), peer.heard.size() * sizeof peer.heard[0], int(other));
-      processes_.send(peer.told.data(), peer.told.size() * sizeof(std::int32_t), int(other));
+      peer.received_ranks.resize(peer.received_count);
+      processes_.receive(peer.received_ranks.data(),
+                         peer.received_ranks.size() * sizeof(std::int32_t), int(other));
+      processes_.send(peer.sent_ranks.data(), peer.sent_ranks.size() * sizeof(std::int32_t),
+                      int(other));
     }
     processes_.wait();
   }
-  /// Takes in what the owners of ghosts have told.
-  void hear_ranks() {
+  /// Shares the ghosts that this rank touches with the ranks that their owners have sent.
+  void take_ranks() {
     for (std::size_t other = 0; other < peers_.size(); ++other) {
       const Peer& peer = peers_[other];
       std::size_t at = 0;
       for (std::size_t k = 0; k < topology.ghosts[other].size(); ++k) {
-        if (!peer.answered[k]) continue;
-        const auto count = std::size_t(peer.heard[at++]);
-        share(topology.ghosts[other][k], std::span(peer.heard).subspan(at, count), int(other));
+        if (!peer.ghosts_touched[k]) continue;
+        const auto count = std::size_t(peer.received_ranks[at++]);
+        share(topology.ghosts[other][k], std::span(peer.received_ranks).subspan(at, count),
+              int(other));
         at += count;
       }
     }
@@ -201,13 +211,13 @@ class RankSharing : public Base {
   void find_walls(std::span<const unsigned char> touched) {
     walls_.clear();
     if (topology.walls.empty()) return;
-    std::vector<double> counts;
-    for (const std::uint32_t wall : topology.walls) counts.push_back(touched[wall]);
-    processes_.sum(std::span(counts));
-    for (std::size_t k = 0; k < counts.size(); ++k) {
-      if (counts[k] == 0) continue;
+    wall_counts_.clear();
+    for (const std::uint32_t wall : topology.walls) wall_counts_.push_back(touched[wall]);
+    processes_.sum(std::span(wall_counts_));
+    for (std::size_t k = 0; k < wall_counts_.size(); ++k) {
+      if (wall_counts_[k] == 0) continue;
       const std::uint32_t wall = topology.walls[k];
-      copies_[wall] = int(counts[k]);
+      copies_[wall] = int(wall_counts_[k]);
       walls_.push_back({wall, touched[wall] != 0});
     }
   }
@@ -253,7 +263,8 @@ class RankSharing : public Base {
   void average_walls(std::span<T> velocities, std::size_t width) {
     if (walls_.empty()) return;
     constexpr std::size_t entries = S::dofs;
-    std::vector<T> sums(walls_.size() * entries);
+    auto& sums = std::get<std::vector<T>>(wall_sums_);
+    sums.assign(walls_.size() * entries, 0);
     for (std::size_t k = 0; k < walls_.size(); ++k)
       if (walls_[k].second)
         std::copy_n(&velocities[walls_[k].first * width], entries, &sums[k * entries]);
@@ -270,7 +281,9 @@ class RankSharing : public Base {
   std::vector<Shared> shared_;
   std::vector<Source> sources_;
   std::vector<std::pair<std::uint32_t, bool>>
-      walls_;  // moving walls, and whether this rank has contacts
+      walls_;                        // moving walls, and whether this rank has contacts
+  std::vector<double> wall_counts_;  // ranks that touch each wall
+  std::tuple<std::vector<double>, std::vector<float>> wall_sums_;  // velocities
   // Grains of this rank that others touch: (body, (first, count) in ranks_).
   std::vector<std::pair<std::uint32_t, std::pair<std::size_t, std::size_t>>> grains_;
   std::vector<std::int32_t> ranks_;

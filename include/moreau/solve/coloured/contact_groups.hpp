@@ -11,9 +11,9 @@
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
 // number of points in the phase. All pairs of one hub have different partners.
 //
-// Pairs whose bodies belong to one chunk come first, chunk after chunk, so that each member of a team
-// works on chunks of its own: between two barriers it visits all colours of a chunk, and the velocities
-// of the bodies stay in the cache of its core.
+// Pairs whose bodies belong to one chunk (solve/body_chunks.hpp) come first, chunk after chunk: between two
+// barriers a member of a team visits all colours of its chunks, and the velocities of the bodies stay in the
+// cache of its core.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@
 #include "moreau/core/sort_by_key.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
+#include "moreau/solve/body_chunks.hpp"
 #include "moreau/solve/coloured/first_fit_colouring.hpp"
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/pack_filler.hpp"
@@ -155,21 +156,15 @@ class ContactGroups {
   /// In place of a colour: pairs without a phase. Those without a hub share no group.
   static constexpr std::uint64_t serial = FirstFitColouring::colours + 1,
                                  alone_kind = not_inside | serial << colour_bits;
-  /// Bodies of a chunk, up to twice as many: the number of chunks is a power of two, so that teams of two,
-  /// four, .. members have equally many. They are consecutive, so that they lie together if the bodies are
-  /// in the order of a space-filling curve. A member of a team visits the pairs inside a chunk without
-  /// waiting for others.
-  static constexpr std::size_t chunk_size = 600;
+  static constexpr std::size_t bodies_of_chunk = 600;
 
   void find_pairs(const Operator& op) {
     moves_.resize(op.body_count());
     isotropic_.resize(op.body_count());
-    chunk_.resize(op.body_count());
-    const std::size_t chunks = std::bit_floor(body_count_ / chunk_size);
+    chunks_.assign(op.body_count(), bodies_of_chunk);
     for (std::size_t i = 0; i < op.body_count(); ++i) {
       moves_[i] = op.inverse_mass(i).moves();
       isotropic_[i] = op.inverse_mass(i).is_isotropic();
-      chunk_[i] = chunks < 2 ? Group::shared : static_cast<std::uint32_t>(i * chunks / body_count_);
     }
     bodies_.clear();
     first_.clear();
@@ -212,8 +207,7 @@ class ContactGroups {
   /// The chunk of all bodies of a pair that move; `shared` if there are two.
   std::uint32_t chunk_of(std::size_t k) const {
     const auto [a, b] = bodies_[k];
-    if (moves_[a] && moves_[b] && chunk_[a] != chunk_[b]) return Group::shared;
-    return chunk_[moves_[a] ? a : b];
+    return chunks_.of_pair(a, b, moves_[a], moves_[b]);
   }
   /// The body of a pair that is its hub.
   std::uint32_t body_of(std::size_t k, Hub hub) const { return bodies_[k][hub == Hub::b]; }
@@ -364,7 +358,7 @@ class ContactGroups {
   List<std::array<std::uint32_t, 2>> bodies_;
   List<std::uint32_t> first_;  // first contact of each pair; at the end, their number
   List<unsigned char> moves_, isotropic_;
-  List<std::uint32_t> chunk_;         // of each body; `shared` if there are no chunks
+  BodyChunks chunks_;
   List<typename S::Scalar> share_;    // of each hub, see find_shares()
   List<std::uint32_t> phase_points_;  // points of each phase of a hub
   std::uint32_t phase_hub_ = 0;       // hub of the last phase

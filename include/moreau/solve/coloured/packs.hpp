@@ -10,6 +10,7 @@
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/lane_block.hpp"
 #include "moreau/law/law_lanes.hpp"
+#include "moreau/solve/body_chunks.hpp"
 
 namespace moreau::detail {
 
@@ -23,7 +24,7 @@ struct PackedCompliance<Vector, true> {
 
 /// The effective radius of one contact per lane, see effective_radius(); nothing for contacts without
 /// couples.
-template <class Values, bool Rolls>
+template <class Values, bool HasCouples>
 struct PackedRadius {};
 template <class Values>
 struct PackedRadius<Values, true> {
@@ -47,7 +48,7 @@ struct PointPack : PackedCompliance<typename LaneBlockOf<Law, S>::Vector, Compli
   Row impulse{}, before{};  ///< after the last visit and the visit before
 };
 
-/// Which body of their pairs the lanes of a group share.
+/// Which body of its pairs is the hub of a group (solve/hub_share.hpp): the body that all its lanes share.
 enum class Hub : std::uint8_t { none, a, b };
 
 /// A group: one pair per lane. No two pairs share a body that can move, except the hub.
@@ -60,7 +61,7 @@ struct PairGroup {
   std::uint32_t phase;
   static constexpr std::uint32_t serial = std::numeric_limits<std::uint32_t>::max();  ///< no phase
   std::uint32_t chunk;  ///< that all bodies of the group belong to, or `shared`
-  static constexpr std::uint32_t shared = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t shared = BodyChunks::shared;
   Hub hub;
   bool is_simple;          ///< neither a hub nor a cell that moves by its stress
   std::uint32_t matrices;  ///< index into ContactGroups::mass_matrices; isotropic: none is needed

@@ -41,18 +41,19 @@ class IslandSolver {
   /// @param tolerance on the error of the velocities, see SolveReport::velocity_error [-]
   void start(const Problem& problem, Impulses impulses, double tolerance) {
     tolerance_ = tolerance;
-    islands_.find(problem.delassus);
+    islands_.find(problem.delassus, most_bodies);
     small_.clear();
     moved_.assign(problem.delassus.body_count(), 0);
     motion_.resize(moved_.size());
-    others_ = made_even_ = false;
+    others_ = islands_.has_large();
+    made_even_ = false;
     for (std::size_t k = 0; k < islands_.size(); ++k) {
       const auto contacts = islands_.contacts(k);
       // A matrix with more blocks takes more work.
       const double least_cost =
           Newton::least_cost_of_step(contacts.size(), islands_.bodies(k), islands_.pairs(k)) /
           double(contacts.size());
-      if (contacts.size() < 2 || islands_.bodies(k) > most_bodies || least_cost > most_visits) {
+      if (contacts.size() < 2 || least_cost > most_visits) {
         others_ = true;
         continue;
       }
@@ -72,25 +73,26 @@ class IslandSolver {
     }
   }
   bool empty() const { return small_.empty(); }  ///< no island is small
-  /// Whether all contacts lie in islands that are solved.
-  bool all_solved() const {
+  /// Whether all contacts lie in islands whose error is within the tolerance.
+  bool all_meet_tolerance() const {
     return !others_ && std::all_of(small_.begin(), small_.end(),
-                                   [&](const Small& one) { return is_solved(one); });
+                                   [&](const Small& one) { return meets_tolerance(one); });
   }
   /// Saves the impulses, which sweeps change.
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
   /// After sweeps: goes back to the saved impulses of the islands where these are better, and solves some of the
   /// others from the impulses of the sweeps.
-  /// @param swept whether the sweeps have met their stopping test: if not, islands that slide are attempted as well
-  void finish(const Problem& problem, Impulses impulses, int sweeps, bool swept) {
+  /// @param converged whether the sweeps have met their stopping test: if not, islands that slide are attempted as well
+  void finish(const Problem& problem, Impulses impulses, int sweeps, bool converged) {
     for (Small& one : small_) {
-      one.swept = not_attempted;  // that was the error of the warm start
+      one.start_error = not_attempted;  // that was the error of the warm start
       if (one.error <= near * tolerance_)
         for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
       else
         one.error = not_attempted;
       const bool is_open = one.is_new && one.defect == 0;
-      if (is_open || is_solved(one) || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
+      if (is_open || meets_tolerance(one) || !is_drawn(one, counted_steps * one.cost, sweeps))
+        continue;
       take(problem, one.island);
       find_cost(one);
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
@@ -98,7 +100,7 @@ class IslandSolver {
       const double defect = newton_.start(impulses);
       if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect)) continue;
       if (!one.is_new && accept(one, defect)) continue;
-      if (newton_.slip() >= 1 && swept) continue;
+      if (newton_.slip() >= 1 && converged) continue;
       // Sweeps give the load of a pair to the point that they visit first.
       const double error =
           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps});
@@ -133,7 +135,7 @@ class IslandSolver {
   /// Where the impulses are those of the sweeps after all: their errors, and no motion.
   MOREAU_INLINED void roll_back() {
     std::fill(moved_.begin(), moved_.end(), 0);
-    for (Small& one : small_) one.error = one.swept;
+    for (Small& one : small_) one.error = one.start_error;
   }
   /// Writes what the islands have come to.
   void write(SolveReport& report) const {
@@ -155,7 +157,7 @@ class IslandSolver {
     double defect;        // of the warm start, see IslandNewton::start()
     bool is_new;          // no contact has an impulse in the warm start
     double error;         // relative [-]
-    double swept;         // the same of the impulses from which the direct method started, at least
+    double start_error;   // the same of the impulses from which the direct method started, at least
     bool failed = false;  // attempt_evenly()
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
@@ -169,7 +171,7 @@ class IslandSolver {
   /// Newton steps of an attempt after the sweeps, at most and as counted in advance: one that fails takes all of them.
   static constexpr int most_steps = 60, counted_steps = 40;
   /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
-  /// second one an island counts as solved.
+  /// second one an island counts as solved in the report.
   static constexpr double near = 10, accepted = 100;
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
@@ -183,7 +185,7 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
 
-  bool is_solved(const Small& one) const { return one.error <= tolerance_; }
+  bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
   /// average.
   /// @param visits of an attempt, per contact
@@ -274,11 +276,11 @@ class IslandSolver {
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.
   /// @param error of these
-  /// @param swept of those from which it started, at least
-  void keep(Small& one, Impulses impulses, double error, double swept) {
-    one.swept = swept;
+  /// @param start_error of those from which it started, at least
+  void keep(Small& one, Impulses impulses, double error, double start_error) {
+    one.start_error = start_error;
     if (!newton_.is_better() || error > near * tolerance_) {
-      one.error = std::max(swept, 2 * tolerance_);
+      one.error = std::max(start_error, 2 * tolerance_);
       return;
     }
     one.error = error;

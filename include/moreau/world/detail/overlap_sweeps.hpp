@@ -3,26 +3,36 @@
 // along its normal: d += M^-1 J^T dp, where J is the change of its gap per shift d of the bodies.
 //
 //  1. Contacts that are too deep or nearly so are taken, and later those that the shifts so far could close. Each time
-//     the new contacts form a batch. A contact that no shift can close would change nothing.
+//     the new contacts form a batch. A contact that no shift can close would change nothing. Only contacts whose gap is
+//     not far beyond the shifts are candidates; the others become candidates when the shifts have grown.
 //  2. A contact that is taken gets a row with J and M^-1 J^T: a visit then reads the row and two shifts.
 //  3. The rows of a batch are sorted by level: one more than the highest level of the rows before it that share a body
 //     with it that moves. The result is that of the order of the contacts, in which shifts go up a stack in one sweep.
 //     Rows of one level share no such body, so that a CPU need not end a visit before it begins the next one.
 //
-// One thread makes the sweeps: a level has so few rows that a barrier would take longer.
+// Threads share all of it, and no bit depends on their number:
+//
+//  - contacts and bodies are searched in slices, whose results are put together in the order of the slices;
+//  - the sweeps are shared by the chunks of bodies of the contact solver (solve/body_chunks.hpp). The contacts inside a
+//    chunk are a part, those between chunks are one more. Each part has its own rows and levels. In a sweep the members
+//    of a team visit the parts inside chunks, then one member visits the contacts between chunks.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/parallel/team.hpp"
+#include "moreau/solve/body_chunks.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau::detail {
@@ -35,28 +45,23 @@ class OverlapSweeps {
   using Vector = typename S::Vector;
   using Angular = typename S::Angular;
   using Twist = typename S::Twist;
-
-  /// A contact that is not yet taken.
-  struct Candidate {
-    Scalar depth;  ///< overlap beyond the slop, < 0 if there is none [m]
-    std::uint32_t a, b, contact;
-  };
+  /// Least bodies of a chunk. The contact solver has twice as many, because its chunks leave SIMD lanes empty.
+  static constexpr std::size_t bodies_of_chunk = 300;
 
   /// Begins without shifts.
-  /// @param masses   of all bodies
-  /// @param contacts number of contacts that may take part
-  void start(std::span<const InverseMass<S>> masses, std::size_t contacts) {
+  /// @param masses of all bodies
+  void start(std::span<const InverseMass<S>> masses) {
     shifts_.assign(masses.size() + 1, Twist::Zero());
     moves_.resize(masses.size());
-    for (std::size_t i = 0; i < masses.size(); ++i) moves_[i] = masses[i].moves();
-    // All memory at once: steps with more deep contacts need no more.
-    if (rows_.size() < contacts) {
-      rows_.resize(contacts);
-      taken_.resize(contacts);
-      next_.resize(contacts);
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      const auto& angular = masses[i].angular();
+      const bool rotates =
+          std::any_of(angular.begin(), angular.end(), [](Scalar x) { return x != 0; });
+      moves_[i] = rotates ? 2 : masses[i].moves();
     }
-    row_count_ = 0;
   }
+  /// Whether impulses rotate a body.
+  bool rotates(std::size_t body) const { return moves_[body] == 2; }
   /// Pushes a body at a point, before the sweeps.
   /// @param push  mass times displacement, world axes [kg m]
   /// @param lever from the centre of the body to the point [m]
@@ -65,29 +70,46 @@ class OverlapSweeps {
     mass.add_change(shifts_[body], push, S::moment(lever, push));
   }
   /// Makes sweeps.
-  /// @param op         operator of the contacts
-  /// @param candidates in: the contacts that may take part; out: those that did not
-  /// @param guess      of the shifts: contacts that shifts of this length could close are taken at once [m]
-  /// @param longest    bound of the levers of bodies that rotate [m]
-  /// @param target     function: depth -> what the change of the gap must not be below [m]
-  /// @param shared     bodies that other processes share; null: none
+  /// @param op      operator of the contacts
+  /// @param depths  overlap beyond the slop, < 0 if there is none, one per contact [m]
+  /// @param guess   of the shifts: contacts that shifts of this length could close are taken at once [m]
+  /// @param longest bound of the levers of bodies that rotate [m]
+  /// @param target  function: depth -> what the change of the gap must not be below [m]
+  /// @param finish  function: finish(i, shift) gets the shift of body i: displacement [m], rotation vector [rad]
+  /// @param shared  bodies that other processes share; null: none
   void run(int sweeps, const auto& op, std::span<const Contact<S>> contacts,
-           List<Candidate>& candidates, Scalar guess, Scalar longest, const auto& target,
-           const Team& team, SharedBodies* shared) {
-    for (int k = 0; k < sweeps; ++k) {
-      if (k <= 2 || k == 4 || k == 8 || k == 32) {
-        find_reach(longest, k == 0 ? guess : Scalar(0));
-        take(op, contacts, candidates, target, team);
+           std::span<const Scalar> depths, Scalar guess, Scalar longest, const auto& target,
+           const auto& finish, const Team& team, SharedBodies* shared) {
+    divide(contacts.size());
+    const auto work = [&](int rank, int size, const TeamBarrier& wait) {
+      Member me{Share(slices_.size(), rank, size), Share(inner_, rank, size), rank + 1 == size};
+      for (int k = 0; k < sweeps; ++k) {
+        if (k <= 2 || k == 4 || k == 8 || k == 32) {
+          if (me.is_apart) wait();
+          for (std::size_t s = me.slices.begin; s < me.slices.end; ++s)
+            find_reach(slices_[s], longest, k == 0 ? guess : Scalar(0));
+          wait();
+          take(me, contacts, depths);
+          wait();
+          fill(me, op, contacts, target);
+        }
+        for (std::size_t p = me.parts.begin; p < me.parts.end; ++p) visit_all(parts_[p]);
+        me.is_apart = me.between == 0 && !shared;
+        if (me.is_apart) continue;
+        wait();
+        if (rank == 0) visit_all(parts_[inner_]);
+        if (rank == 0 && shared)
+          shared->average(std::span(shifts_[0].data(), moves_.size() * std::size_t{S::dofs}),
+                          S::dofs);
+        wait();
       }
-      visit_all();
-      if (shared)
-        shared->average(std::span(shifts_[0].data(), moves_.size() * std::size_t{S::dofs}),
-                        S::dofs);
-    }
+      if (me.is_apart) wait();
+      for (std::size_t s = me.slices.begin; s < me.slices.end; ++s)
+        for (std::size_t i = slices_[s].bodies.begin; i < slices_[s].bodies.end; ++i)
+          finish(i, shifts_[i]);
+    };
+    team.run_timed(TimedWork::correction, inner_ == 0 ? 0 : contacts.size(), least_contacts, work);
   }
-
-  /// The shifts of the bodies: displacement [m] and rotation vector [rad], world axes.
-  std::span<const Twist> shifts() const { return std::span(shifts_).first(moves_.size()); }
 
  private:
   /// The data that a visit reads. The shift of a body that cannot move is that after the last body; it stays zero.
@@ -102,46 +124,170 @@ class OverlapSweeps {
     std::uint32_t a, b;
   };
 
-  /// Bounds how far each body has moved a point at a distance up to `longest` from its centre.
-  /// @param least of the bounds of bodies that move [m]
-  void find_reach(Scalar longest, Scalar least) {
-    reach_.resize(moves_.size());
-    for (std::size_t i = 0; i < reach_.size(); ++i) {
-      const Twist& shift = shifts_[i];
-      reach_[i] = std::max(linear<S>(shift).norm() + longest * angular<S>(shift).norm(),
-                           moves_[i] ? least : Scalar(0));
+  /// A contact that is not yet taken.
+  struct Candidate {
+    Scalar depth;
+    std::uint32_t a, b, contact, part;
+  };
+  /// The k-th contact of a batch: where it stands among the taken ones, and its level. Of the k-th level of the batch:
+  /// its rows, then its next free row.
+  struct Ordered {
+    std::uint32_t taken, level, next;
+  };
+  /// Contacts and bodies that a member of a team searches. The candidates and the taken contacts of a slice stand in
+  /// candidates_ and behind taken_ from the number of its first contact on.
+  struct Slice {
+    Share contacts{0, 0, 1}, bodies{0, 0, 1};
+    std::size_t candidates = 0, taken = 0;
+    Scalar reach = 0;  // largest of the bodies [m]
+  };
+  struct Range {
+    std::size_t begin, end;
+  };
+  /// Contacts inside a chunk, or between chunks.
+  struct Part {
+    std::array<Range, 6> batches{};  // rows
+    std::size_t batch_count = 0;
+    Range bodies;           // that the contacts move
+    std::uint32_t* levels;  // one per body: above its rows in a batch
+  };
+  /// What a member of a team works on, and how far all members are.
+  struct Member {
+    Share slices, parts;
+    bool is_last;
+    std::size_t rows = 0, between = 0;  // of all parts; of the part between chunks
+    bool is_apart = false;              // whether other members may still change shifts
+    Scalar listed =
+        std::numeric_limits<Scalar>::infinity();  // least depth of candidates so far [m]
+  };
+  static constexpr int slice_count = 16;
+  /// Contacts below which one thread takes less time.
+  static constexpr std::size_t least_contacts = 4096;
+  /// Twice the multiple of the shifts up to which contacts become candidates.
+  static constexpr Scalar far = 4;
+
+  MOREAU_COLD void divide(std::size_t contacts) {
+    const std::size_t bodies = moves_.size();
+    for (int s = 0; s < slice_count; ++s)
+      slices_[std::size_t(s)] = {Share(contacts, s, slice_count), Share(bodies, s, slice_count)};
+    chunks_.assign(bodies, bodies_of_chunk);
+    inner_ = chunks_.size();
+    levels_.resize(2 * bodies);
+    reach_.resize(bodies);
+    parts_.resize(inner_ + 1);
+    for (std::size_t p = 0; p < inner_; ++p)
+      parts_[p] = {{}, 0, {chunks_.begin(p), chunks_.begin(p + 1)}, levels_.data()};
+    parts_[inner_] = {{}, 0, {0, bodies}, levels_.data() + bodies};
+    counts_.resize(slices_.size() * parts_.size());
+    // All memory at once: steps with more deep contacts need no more.
+    if (rows_.size() < contacts) {
+      candidates_.resize(2 * contacts);
+      order_.resize(contacts);
+      rows_.resize(contacts);
     }
+    taken_ = candidates_.data() + rows_.size();
   }
 
-  void take(const auto& op, std::span<const Contact<S>> contacts, List<Candidate>& candidates,
-            const auto& target, const Team& team) {
-    level_.assign(moves_.size(), 0);
-    levels_ = 0;
-    taken_count_ = 0;
-    std::size_t left = 0;
-    for (const Candidate& candidate : candidates)
-      if (candidate.depth + reach_[candidate.a] + reach_[candidate.b] > 0)
-        find_level(candidate);
-      else
-        candidates[left++] = candidate;
-    candidates.resize(left);
-    for (std::size_t k = 0, end = row_count_; k < levels_; ++k) end += std::exchange(next_[k], end);
-    for (Taken& taken : std::span(taken_).first(taken_count_)) taken.row = next_[taken.level]++;
-    row_count_ += taken_count_;
-    team.share_each(taken_count_, 128, [&](std::size_t k) {
-      const Taken& taken = taken_[k];
-      fill(rows_[taken.row], op, contacts[taken.contact], taken.contact, target(taken.depth));
-    });
+  /// Bounds how far each body of a slice has moved a point at a distance up to `longest` from its centre.
+  /// @param least of the bounds of bodies that move [m]
+  void find_reach(Slice& slice, Scalar longest, Scalar least) {
+    slice.reach = 0;
+    for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; ++i) {
+      const Twist& shift = shifts_[i];
+      Scalar reach = moves_[i] ? least : Scalar(0);
+      if (shift.squaredNorm() > 0)
+        reach = std::max(reach, linear<S>(shift).norm() + longest * angular<S>(shift).norm());
+      reach_[i] = reach;
+      slice.reach = std::max(slice.reach, reach);
+    }
   }
-  /// Takes a contact.
-  void find_level(const Candidate& candidate) {
-    const bool a = moves_[candidate.a], b = moves_[candidate.b];
-    const std::uint32_t level = std::max(a ? level_[candidate.a] : 0, b ? level_[candidate.b] : 0);
-    if (a) level_[candidate.a] = level + 1;
-    if (b) level_[candidate.b] = level + 1;
-    if (level == levels_) next_[levels_++] = 0;
-    ++next_[level];
-    taken_[taken_count_++] = {candidate.depth, candidate.contact, level, 0};
+  /// Takes the candidates that the shifts can close, as a batch.
+  void take(Member& me, std::span<const Contact<S>> contacts, std::span<const Scalar> depths) {
+    Scalar reach = 0;
+    for (const Slice& slice : slices_) reach = std::max(reach, slice.reach);
+    const bool is_beyond = -2 * reach < me.listed;
+    for (std::size_t s = me.slices.begin; s < me.slices.end; ++s) {
+      if (is_beyond) list(slices_[s], contacts, depths, -far * reach, me.listed);
+      take(slices_[s]);
+    }
+    if (is_beyond) me.listed = -far * reach;
+  }
+  /// Makes candidates of the contacts whose depth is in (least, most].
+  void list(Slice& slice, std::span<const Contact<S>> contacts, std::span<const Scalar> depths,
+            Scalar least, Scalar most) {
+    std::size_t end = slice.contacts.begin + slice.candidates;
+    for (std::size_t c = slice.contacts.begin; c < slice.contacts.end; ++c) {
+      if (!(depths[c] > least && depths[c] <= most)) continue;
+      const std::uint32_t a = contacts[c].a, b = contacts[c].b;
+      const auto part = std::min(chunks_.of_pair(a, b, moves_[a] != 0, moves_[b] != 0),
+                                 static_cast<std::uint32_t>(inner_));
+      candidates_[end++] = {depths[c], a, b, static_cast<std::uint32_t>(c), part};
+    }
+    slice.candidates = end - slice.contacts.begin;
+  }
+  void take(Slice& slice) {
+    const std::size_t first = slice.contacts.begin;
+    std::uint32_t* const counts = &counts_[std::size_t(&slice - slices_.data()) * parts_.size()];
+    std::fill(counts, counts + parts_.size(), 0);
+    std::size_t taken = first, left = first;
+    for (std::size_t k = first; k < first + slice.candidates; ++k) {
+      const Candidate& candidate = candidates_[k];
+      if (candidate.depth + reach_[candidate.a] + reach_[candidate.b] > 0) {
+        taken_[taken++] = candidate;
+        ++counts[candidate.part];
+      } else {
+        if (left != k) candidates_[left] = candidate;
+        ++left;
+      }
+    }
+    slice.candidates = left - first;
+    slice.taken = taken - first;
+  }
+  /// Makes the rows of a batch.
+  void fill(Member& me, const auto& op, std::span<const Contact<S>> contacts, const auto& target) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      Range batch{me.rows, me.rows};
+      for (std::size_t s = 0; s < slices_.size(); ++s) batch.end += counts_[s * parts_.size() + p];
+      me.rows = batch.end;
+      if (p == inner_) me.between += batch.end - batch.begin;
+      const bool is_own = p == inner_ ? me.is_last : p >= me.parts.begin && p < me.parts.end;
+      if (!is_own || batch.begin == batch.end) continue;
+      parts_[p].batches[parts_[p].batch_count++] = batch;
+      fill(p, batch, op, contacts, target);
+    }
+  }
+  /// Makes the rows of a part.
+  void fill(std::size_t number, const Range& batch, const auto& op,
+            std::span<const Contact<S>> contacts, const auto& target) {
+    const Part& part = parts_[number];
+    std::fill(part.levels + part.bodies.begin, part.levels + part.bodies.end, 0);
+    Ordered* const batch_order = &order_[batch.begin];
+    std::size_t count = 0;
+    std::uint32_t levels = 0;
+    for (const Slice& slice : slices_)
+      for (std::size_t k = slice.contacts.begin; k < slice.contacts.begin + slice.taken; ++k) {
+        if (taken_[k].part != number) continue;
+        const std::uint32_t level = level_of(contacts[taken_[k].contact], part.levels);
+        if (level == levels) batch_order[levels++].next = 0;
+        ++batch_order[level].next;
+        batch_order[count].taken = static_cast<std::uint32_t>(k);
+        batch_order[count++].level = level;
+      }
+    auto end = static_cast<std::uint32_t>(batch.begin);
+    for (std::uint32_t k = 0; k < levels; ++k) end += std::exchange(batch_order[k].next, end);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Candidate& taken = taken_[batch_order[k].taken];
+      fill(rows_[batch_order[batch_order[k].level].next++], op, contacts[taken.contact],
+           taken.contact, target(taken.depth));
+    }
+  }
+  /// The level of a contact, above those of its bodies that move, which it raises.
+  std::uint32_t level_of(const Contact<S>& contact, std::uint32_t* levels) const {
+    const bool a = moves_[contact.a], b = moves_[contact.b];
+    const std::uint32_t level = std::max(a ? levels[contact.a] : 0, b ? levels[contact.b] : 0);
+    if (a) levels[contact.a] = level + 1;
+    if (b) levels[contact.b] = level + 1;
+    return level;
   }
   void fill(Row& row, const auto& op, const Contact<S>& contact, std::uint32_t c,
             Scalar target) const {
@@ -161,10 +307,14 @@ class OverlapSweeps {
     row.b = moves_[contact.b] ? contact.b : still;
   }
 
-  /// Visits all rows once.
-  void visit_all() {
+  /// Visits all rows of a part once.
+  void visit_all(const Part& part) {
+    for (const Range& batch : std::span(part.batches).first(part.batch_count))
+      visit(std::span(rows_).subspan(batch.begin, batch.end - batch.begin));
+  }
+  void visit(std::span<Row> rows) {
     const std::size_t still = moves_.size();
-    for (Row& row : std::span(rows_).first(row_count_)) {
+    for (Row& row : rows) {
       Twist &a = shifts_[row.a], &b = shifts_[row.b];
       const Twist &of_a = a, &of_b = b;
       const Scalar opening = row.normal.dot(linear<S>(of_b) - linear<S>(of_a)) +
@@ -183,22 +333,21 @@ class OverlapSweeps {
     }
   }
 
-  /// A candidate that was taken, and its row.
-  struct Taken {
-    Scalar depth;
-    std::uint32_t contact, level;
-    std::size_t row;
-  };
-
-  List<unsigned char> moves_;  // one per body: whether impulses move it
-  List<Twist> shifts_;         // one per body, and zero
-  List<Scalar> reach_;         // one per body [m]
-  List<std::uint32_t> level_;  // one per body: above its rows in this batch
-  List<std::size_t> next_;     // of each level of a batch: its rows, then the next free row
-  std::uint32_t levels_ = 0;   // of this batch
-  List<Taken> taken_;          // the first taken_count_: of this batch
-  List<Row> rows_;             // the first row_count_
-  std::size_t taken_count_ = 0, row_count_ = 0;
+  // One per body.
+  List<unsigned char> moves_;   // 0; 1: impulses move it; 2: they rotate it, too
+  List<Twist> shifts_;          // and zero at the end
+  List<Scalar> reach_;          // [m]
+  List<std::uint32_t> levels_;  // inside chunks, then between chunks
+  BodyChunks chunks_;
+  std::array<Slice, std::size_t(slice_count)> slices_;
+  std::size_t inner_ = 0;       // number of parts inside chunks
+  List<Part> parts_;            // inside chunks, then between chunks
+  List<std::uint32_t> counts_;  // taken contacts of each slice in each part
+  List<Candidate> candidates_;  // as many as contacts, and behind them as many taken contacts
+  Candidate* taken_ = nullptr;
+  // As many as contacts; sorted by batch, then by part.
+  List<Ordered> order_;
+  List<Row> rows_;
 };
 
 }  // namespace moreau::detail

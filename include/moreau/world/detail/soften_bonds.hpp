@@ -18,7 +18,9 @@ namespace moreau::detail {
 
 /// Solves the contact problem again while the strength of bonds that yield falls within the step: until the impulses
 /// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses, as its
-/// residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield.
+/// residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
+/// most BondList::max_solutions solutions, that of the caller included, is not compared any more: the report then says
+/// that the problem is not solved (`capped`).
 /// @param op       operator of the problem
 /// @param impulses of the present solution [N s]
 /// @param roots    M^-1/2 of every body
@@ -55,7 +57,8 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
     solve();
     report.sweeps += sweeps;
   }
-  report.converged = false;  // the strengths still change
+  report.converged = false;
+  report.capped = true;
 }
 
 }  // namespace moreau::detail
