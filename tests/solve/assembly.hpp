@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/solve/coloured_gauss_seidel.hpp"
 #include "moreau/solve/concepts.hpp"
@@ -53,7 +54,7 @@ struct Assembly {
 
   BodyDelassus<S> op;
   std::vector<Law> laws{Law(0), Law(T(0.3)), Law(T(0.6))};
-  std::vector<std::uint32_t> law_of;
+  List<std::uint32_t> law_of;
   std::vector<Contact<S>> contacts;
   std::vector<MobilityRoot<S>> roots;
   std::vector<typename S::Twist> free;
