@@ -44,10 +44,7 @@ TEST_CASE_TEMPLATE("impulses one after the other and all at once give the same v
   std::vector<typename S::Twist> expected;
   for (std::size_t i = 0; i < op.body_count(); ++i) expected.push_back(op.velocity_change(i));
   op.clear();
-  for (std::size_t c = 0; c < op.size(); ++c) {
-    op.push_a(c, impulses[c]);
-    op.push_b(c, impulses[c]);
-  }
+  for (std::size_t c = 0; c < op.size(); ++c) op.push(c, impulses[c]);
   op.move();
   for (std::size_t i = 0; i < op.body_count(); ++i)
     CHECK((op.velocity_change(i) - expected[i]).norm() < 1e-12);

@@ -10,8 +10,6 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/solve/coloured/pairs_of_bodies.hpp"
-
 using namespace moreau;
 using namespace moreau::detail;
 
@@ -80,31 +78,5 @@ TEST_CASE("every group with points is visited once, whatever the size of the tea
           CHECK(settled[k] == (points[k] > 0 && groups[k].phase == FirstFitColouring::colours));
         }
       }
-  }
-}
-
-TEST_CASE("the pairs of each body come in their order, whatever the size of the team") {
-  std::mt19937_64 random(1);
-  for (int round = 0; round < 50; ++round) {
-    const auto bodies = static_cast<std::uint32_t>(2 + random() % 50);
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    std::vector<std::vector<std::uint32_t>> expected(bodies);
-    for (std::uint64_t k = random() % 100; k > 0; --k) {
-      const auto a = static_cast<std::uint32_t>(random() % bodies);
-      const auto b = static_cast<std::uint32_t>((a + 1 + random() % (bodies - 1)) % bodies);
-      for (const std::uint32_t body : {a, b})
-        expected[body].push_back(static_cast<std::uint32_t>(pairs.size()));
-      pairs.push_back({a, b});
-    }
-    PairsOfBodies of_bodies;
-    of_bodies.assign(pairs, bodies);
-    for (const int size : {1, 2, 3, 8}) {
-      std::vector<std::vector<std::uint32_t>> found(bodies);
-      of_bodies.for_each(Team(std::make_shared<Turns>(size)),
-                         [&](const PairsOfBodies::Entry& entry) {
-                           found[pairs[entry.pair][entry.is_b]].push_back(entry.pair);
-                         });
-      CHECK(found == expected);
-    }
   }
 }

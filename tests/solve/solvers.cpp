@@ -133,6 +133,29 @@ TEST_CASE_TEMPLATE("equal input gives equal bits, with fresh or used buffers", S
   for (std::size_t c = 0; c < impulses.size(); ++c) CHECK(impulses[c] == again[c]);
 }
 
+TEST_CASE_TEMPLATE("a problem with other free velocities is solved again", S, Space<2>, Space<3>) {
+  using Law = typename Assembly<S>::Law;
+  ColouredOptions options = fast<S>(1e-8);
+  options.islands = false;
+  const ColouredGaussSeidel solver(options);
+  ColouredGaussSeidel::Workspace<BodyDelassus<S>, Law> workspace;
+  auto problem = Assembly<S>(4).problem();
+  std::vector<typename S::Vector> impulses(problem.size(), S::Vector::Zero());
+  CHECK(solver.solve(problem, std::span(impulses), workspace).converged);
+  for (const bool cold : {false, true}) {
+    for (std::size_t c = 0; c < problem.size(); ++c)
+      problem.delassus.offset_normal(c, 0.2 * double(c % 3) - 0.1);
+    if (cold) impulses.assign(problem.size(), S::Vector::Zero());
+    const SolveReport report =
+        solver.solve(problem, std::span(impulses), workspace, /*again=*/true);
+    CHECK(report.converged);
+    detail::set_impulses(problem.delassus, std::span<const typename S::Vector>(impulses));
+    SolveReport measured;
+    measure_residual(problem, std::span<const typename S::Vector>(impulses), measured);
+    CHECK(measured.residual <= 1e-8);
+  }
+}
+
 TEST_CASE("the cap is reported") {
   Assembly<Space<3>> problem(8);
   ColouredOptions options;

@@ -222,15 +222,6 @@ class BodyDelassus {
     give(points_[c].a, momentum);
     stretch(c, impulse);
   }
-  /// Gives body a the momentum of an impulse, with the bits of push().
-  void push_a(std::size_t c, const Vector& impulse) {
-    give(points_[c].a, points_[c].momentum_of(impulse));
-  }
-  /// Gives body b the momentum of an impulse, with the bits of push(), and stretches the springs.
-  void push_b(std::size_t c, const Vector& impulse) {
-    take(points_[c].b, points_[c].momentum_of(impulse));
-    stretch(c, impulse);
-  }
   /// Makes velocities of the momenta.
   void move(const Team& team = {}) {
     team.share_each(changes_.size(), 256, [&](std::size_t i) {
@@ -263,6 +254,19 @@ class BodyDelassus {
   }
   /// @}
 
+  /// Sets the velocities of all bodies by impulses that somebody else has added up, and those of springs and cell.
+  /// @param change_of function: body -> change of its velocity by the impulses, entries (v, w) in world axes [m/s, rad/s]
+  void set_changes(std::span<const Vector> impulses, const auto& change_of, const Team& team) {
+    team.share_each(changes_.size(), 256, [&](std::size_t i) {
+      const auto& change = change_of(i);
+      for (int k = 0; k < S::dofs; ++k) changes_[i][k] = change[std::size_t(k)];
+    });
+    if constexpr (Springs) {
+      springs_.stretch.assign(springs_.stretch.size(), Vector::Zero());
+      team.share_each(impulses.size(), 256, [&](std::size_t c) { stretch(c, impulses[c]); });
+    }
+    move_cell(impulses);
+  }
   /// Change of the velocity of a body by the impulses, (v, w) in world axes [m/s, rad/s].
   auto velocity_change(std::size_t body) const { return changes_[body].template head<S::dofs>(); }
   /// The changes of all bodies, `width` numbers each; they may be changed, if every contact sees the

@@ -112,10 +112,12 @@ class ColouredGaussSeidel {
 
   /// Solves the contact problem; the arguments are those of NonlinearGaussSeidel::solve. Sizes are
   /// not checked.
+  /// @param again whether the problem differs from the last one by its free velocities alone
   template <class Operator, class Law>
   SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
-                    Workspace<Operator, Law>& workspace) const {
+                    Workspace<Operator, Law>& workspace, bool again = false) const {
+    if (!again) workspace.sweeps.forget();
     detail::drop_if_not_finite(impulses, shared_.get());
     if constexpr (CoulombLaw<Law, typename Operator::Space>)
       if (options_.islands && !shared_ && !problem.delassus.has_cell())
@@ -243,10 +245,10 @@ class ColouredGaussSeidel {
         least = change;
         sweeps.save(team_);
       } else if (!(change < divergence * least)) {
-        sweeps.restore();
+        sweeps.restore(team_);
       }
     }
-    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.restore();
+    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.restore(team_);
     if (!report.converged) certify(problem, impulses, sweeps, report);
     if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
     report.capped = !report.converged;

@@ -156,17 +156,37 @@ class ContactLanes {
  private:
   /// Adds the part of W_cc that belongs to one body.
   void add_inertia(const Side& side, typename Algebra::template Symmetric<dim>& w) const {
+    using Angular = std::array<Values, Algebra::angular>;
+    std::array<Angular, dim> moments;
+    for (std::size_t i = 0; i < dim; ++i) moments[i] = Algebra::moment(side.lever, axes_[i]);
+    for (std::size_t i = 0; i < dim; ++i) {
+      const Angular turn = Algebra::template product<Algebra::angular>(side.angular, moments[i]);
+      for (std::size_t k = 0; k <= i; ++k)
+        for (std::size_t d = 0; d < Algebra::angular; ++d)
+          w[Algebra::entry(i, k)] += turn[d] * moments[k][d];
+    }
+    // F^T (1/m) F = 1/m, unless the mass differs along the axes. Each lane by itself: which contacts are in the other lanes
+    // depends on the threads.
+    const typename Lanes::Indices varies = varying(side.linear);
+    for (std::size_t i = 0; i < dim; ++i)
+      w[Algebra::entry(i, i)] += varies ? Values{} : side.linear[0];
+    if (!Lanes::any(varies)) return;
     for (std::size_t i = 0; i < dim; ++i) {
       const Vector push = Algebra::template product<dim>(side.linear, axes_[i]);
-      const auto turn = Algebra::template product<Algebra::angular>(
-          side.angular, Algebra::moment(side.lever, axes_[i]));
       for (std::size_t k = 0; k <= i; ++k) {
-        Values& entry = w[Algebra::entry(i, k)];
-        for (std::size_t d = 0; d < dim; ++d) entry += push[d] * axes_[k][d];
-        const auto moment = Algebra::moment(side.lever, axes_[k]);
-        for (std::size_t d = 0; d < Algebra::angular; ++d) entry += turn[d] * moment[d];
+        Values sum{};
+        for (std::size_t d = 0; d < dim; ++d) sum += push[d] * axes_[k][d];
+        w[Algebra::entry(i, k)] += varies ? sum : Values{};
       }
     }
+  }
+  /// Lanes in which a mass is not the same along all axes, as that of a wall that moves along its normal.
+  static typename Lanes::Indices varying(const typename Algebra::template Symmetric<dim>& linear) {
+    typename Lanes::Indices differs{};
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k <= i; ++k)
+        differs |= linear[Algebra::entry(i, k)] != (i == k ? linear[0] : Values{});
+    return differs;
   }
   /// No impulse changes the tangential velocity of a wall with a mass and a grain of prescribed motion:
   /// the slip of W_cc is zero. The local solution divides by it. Any positive value leaves the solution

@@ -29,14 +29,24 @@ class ColouredSweeps {
   using S = typename Kernel::S;
   using Impulse = typename Kernel::Impulse;
 
+  /// The next start() is of another problem. Otherwise problems differ by their free velocities alone, and the groups
+  /// and their order are kept.
+  void forget() { is_packed_ = false; }
   /// @param problem out: its operator carries the velocities of the impulses
   /// @param shared  bodies that contact problems of other processes share; null: none
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              bool accelerate, const Team& team, SharedBodies* shared) {
     shared_ = shared;
-    kernel_.start(problem, impulses, team, shared);
     acceleration_ = Acceleration<T>(accelerate);
-    all_.assign(kernel_.groups(), [&](std::uint32_t k) { return kernel_.groups()[k].count; });
+    if (is_packed_) {
+      kernel_.restart(problem, impulses, team);
+    } else {
+      kernel_.start(problem, impulses, team);
+      all_.assign(kernel_.groups(), [&](std::uint32_t k) { return kernel_.groups()[k].count; });
+      is_packed_ = true;
+    }
+    find_velocities(team);
+    kernel_.give_velocities(problem.delassus, impulses, team, shared);
     update_active();
     save(team);
   }
@@ -44,7 +54,8 @@ class ColouredSweeps {
   /// rounding of the sweeps.
   void finish(Operator& op, std::span<Impulse> impulses, const Team& team) {
     kernel_.unpack(impulses, team);
-    kernel_.set_impulses(op, impulses, team, shared_);
+    find_velocities(team);
+    kernel_.give_velocities(op, impulses, team, shared_);
     acceleration_.interrupt();
   }
   /// measure_residual() after finish().
@@ -68,12 +79,12 @@ class ColouredSweeps {
     });
   }
   /// Goes back to the saved impulses; the next sweep has no acceleration.
-  void restore() {
+  void restore(const Team& team) {
     std::size_t i = 0;
     for (auto& point : kernel_.points())
       for (std::size_t d = 0; d < Kernel::rows; ++d)
         point.impulse[d] = point.before[d] = saved_[i++];
-    recompute_velocities();
+    recompute_velocities(team);
     kernel_.velocity().forget_change();
     acceleration_.restart();
   }
@@ -82,7 +93,7 @@ class ColouredSweeps {
   void sweep_active(const Team& team) {
     const bool mixing = acceleration_.is_mixing();
     const bool back = mixing && mixed_sweeps_ % 2 == 0;
-    if (mixing) mix();
+    if (mixing) mix(team);
     kernel_.begin_sweep(acceleration_.beta());
     run(TimedWork::sweep, team, [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [this](std::uint32_t k) { kernel_.visit_active(k, acceleration_.beta()); };
@@ -155,18 +166,32 @@ class ColouredSweeps {
     return [this](std::uint32_t k) { kernel_.settle_hub(k); };
   }
   /// Before a sweep while impulses are mixed: mixes them every few sweeps.
-  void mix() {
+  void mix(const Team& team) {
     if (mixed_sweeps_ > 0 && mixed_sweeps_ % sweeps_per_mix == 0) {
       mixing_.mix(kernel_, shared_);
-      recompute_velocities();
+      recompute_velocities(team);
     }
     kernel_.velocity().forget_change();
     ++mixed_sweeps_;
   }
-  MOREAU_COLD void recompute_velocities() {
-    kernel_.recompute_velocities(all_.groups());
+  MOREAU_COLD void recompute_velocities(const Team& team) {
+    find_velocities(team);
     average();
     update_active();
+  }
+  /// Computes the velocities of the bodies and of the cell from the impulses of the points alone, and updates the
+  /// active points of the groups.
+  void find_velocities(const Team& team) {
+    kernel_.begin_from_zero();
+    const auto apply = [&](int rank, int size, const TeamBarrier& wait) {
+      const auto visit = [this](std::uint32_t k) { kernel_.apply(k); };
+      all_.forward(rank, size, wait, visit, settle_hub());
+    };
+    if (kernel_.points().size() < least_points)
+      apply(0, 1, TeamBarrier());
+    else
+      team.run(apply);
+    kernel_.end_sweep(all_.groups());
   }
   void update_active() {
     active_points_ = 0;
@@ -184,6 +209,7 @@ class ColouredSweeps {
   }
 
   SharedBodies* shared_ = nullptr;
+  bool is_packed_ = false;
   Kernel kernel_;
   Schedule all_, active_;
   Acceleration<T> acceleration_;

@@ -32,7 +32,6 @@
 #include "moreau/solve/coloured/lane_masses.hpp"
 #include "moreau/solve/coloured/pack_filler.hpp"
 #include "moreau/solve/coloured/packs.hpp"
-#include "moreau/solve/coloured/pairs_of_bodies.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/hub_share.hpp"
 
@@ -97,9 +96,15 @@ class ContactGroups {
     masses.resize(groups.size());
     mass_matrices.resize(matrices_);
     team.share_each(groups.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
-    of_bodies_are_valid_ = false;
   }
 
+  /// Takes other free velocities and impulses of the contacts of build().
+  void refill(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+              const Team& team) {
+    team.share_each(points.size(), 64, [&](std::size_t p) {
+      Filler::refill(points[p], &contact_of_[p * lanes], problem, impulses);
+    });
+  }
   /// Writes the impulses of the groups in the order of the problem.
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     team.share_each(points.size(), 128, [&](std::size_t p) {
@@ -110,30 +115,6 @@ class ContactGroups {
           impulses[c][Eigen::Index(d)] = points[p].impulse[d][lane];
       }
     });
-  }
-
-  /// detail::set_impulses(), shared by bodies. The sum of a body has the same order as there.
-  void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
-                    SharedBodies* shared) {
-    if (!team.shares()) {
-      detail::set_impulses<Operator>(op, impulses, shared);
-      return;
-    }
-    if (!of_bodies_are_valid_) of_bodies_.assign(bodies_, body_count_);
-    of_bodies_are_valid_ = true;
-    op.clear();
-    of_bodies_.for_each(team, [&](const PairsOfBodies::Entry& entry) {
-      for (std::uint32_t c = first_[entry.pair]; c < first_[entry.pair + 1]; ++c) {
-        if (impulses[c].isZero(0)) continue;
-        if (entry.is_b)
-          op.push_b(c, impulses[c]);
-        else
-          op.push_a(c, impulses[c]);
-      }
-    });
-    op.move(team);
-    op.move_cell(impulses);
-    if (shared) shared->average(op.velocity_changes(), Operator::width);
   }
 
  private:
@@ -365,8 +346,6 @@ class ContactGroups {
   List<Ordered> order_, sorted_;
   List<std::uint32_t> contact_of_;  // of every lane of every PointPack, or none
   FirstFitColouring colouring_;
-  PairsOfBodies of_bodies_;
-  bool of_bodies_are_valid_ = false;
 };
 
 }  // namespace moreau::detail

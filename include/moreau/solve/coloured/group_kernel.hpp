@@ -39,10 +39,10 @@ class GroupKernel {
   using Group = typename Groups::Group;
   using Points = typename Groups::Points;
 
-  /// @param problem out: its operator carries the velocities of the impulses
-  /// @param team    threads that share the work
-  void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-             const Team& team, SharedBodies* shared) {
+  /// Packs the contacts with their impulses; the bodies have no velocities yet.
+  /// @param team threads that share the work
+  void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+             const Team& team) {
     contacts_.build(problem, impulses, team);
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
@@ -51,36 +51,55 @@ class GroupKernel {
     has_extras_ = is_large_ || cell_.moves();
     if (cell_.moves())
       for (Group& group : contacts_.groups) group.is_simple = false;
-    set_impulses(problem.delassus, impulses, team, shared);
-    team.share_each(contacts_.groups.size(), 128,
-                    [&](std::size_t k) { update_active(contacts_.groups[k]); });
   }
-  /// Computes the velocities of the impulses, in the order of the problem, for the operator and for
-  /// the bodies here.
-  void set_impulses(Operator& op, std::span<const Impulse> impulses, const Team& team,
-                    SharedBodies* shared) {
-    contacts_.set_impulses(op, impulses, team, shared);
-    velocity_.reset(contacts_.velocities(), contacts_.bodies());
-    team.share_each(op.body_count(), 256,
-                    [&](std::size_t i) { velocity_.set(i, op.velocity_change(i)); });
-    velocity_.forget_change();
-    if (cell_.moves()) cell_.set_rate(op.cell_change());
+  /// The same for a problem that differs from that of start() by its free velocities alone.
+  void restart(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+               const Team& team) {
+    contacts_.refill(problem, impulses, team);
+    changes_.assign(contacts_.groups.size(), Values{});
   }
-  /// Computes the velocities of the bodies and of the cell from the impulses alone.
-  /// @param all all groups
-  MOREAU_INLINED void recompute_velocities(const List<std::uint32_t>& all) {
+  /// Sets the velocities of the bodies and of the cell to zero: apply() of all groups and end_sweep() then compute them
+  /// from the impulses of the points alone.
+  void begin_from_zero() {
     velocity_.reset(contacts_.velocities(), contacts_.bodies());
     if (cell_.moves()) cell_.begin_from_zero();
-    for (std::uint32_t k = 0; k < contacts_.groups.size(); ++k) {
-      apply(k);
-      update_active(contacts_.groups[k]);
+  }
+  /// Adds what the impulses of group k do to its bodies; updates its active points.
+  MOREAU_COMPILED_ONCE void apply(std::uint32_t k) {
+    Group& group = contacts_.groups[k];
+    update_active(group);
+    if (group.delays_hub()) hub_changes_[k] = {};
+    if (group.active == 0) {
+      if (cell_.moves()) cell_.skip(k);
+      return;
     }
-    end_sweep(all);
+    if (is_large_) prefetch_from(k + ahead);
+    BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
+    if (cell_.moves()) cell_.enter(k, b);
+    for (std::uint32_t p = group.first; p < group.first + group.active; ++p)
+      push(k, contacts_.points[p], contacts_.points[p].impulse, a, b);
+    if (cell_.moves()) cell_.leave(k, b);
+    if (group.delays_hub())
+      hub_changes_[k] = velocity_.scatter_partners(group, a, b);
+    else
+      velocity_.scatter(group, a, b);
+  }
+  /// Gives the operator the velocities of the impulses, from which the next sweep starts.
+  /// @param impulses those of the points, in the order of the problem
+  void give_velocities(Operator& op, std::span<const Impulse> impulses, const Team& team,
+                       SharedBodies* shared) {
+    op.set_changes(impulses, [this](std::size_t i) { return velocity_.of(i); }, team);
+    if (shared) {
+      shared->average(op.velocity_changes(), Operator::width);
+      for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.velocity_change(i));
+    }
+    velocity_.forget_change();
+    if (cell_.moves()) cell_.set_rate(op.cell_change());
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     contacts_.unpack(impulses, team);
   }
-  /// The sums of measure_residual() after set_impulses(). A sweep without extrapolation, or set_impulses(), is next.
+  /// The sums of measure_residual() after give_velocities(). A sweep without extrapolation, or begin_from_zero(), is next.
   /// @param scale makes velocities of impulses [1/kg]
   ResidualSums<Operator, Law> residual(double scale, const Team& team) requires MapsLanes<Law, S> {
     begin_sweep(0);
@@ -162,16 +181,6 @@ class GroupKernel {
   MOREAU_COMPILED_ONCE BodyLanes
   gathered(const typename LaneVelocities<S, Lanes>::Bodies& bodies) const {
     return velocity_.gather(bodies);
-  }
-  /// Adds what the impulses of a group do to its bodies.
-  MOREAU_INLINED void apply(std::uint32_t number) {
-    const Group& group = contacts_.groups[number];
-    BodyLanes a = gathered(group.a), b = gathered(group.b);
-    if (cell_.moves()) cell_.enter(number, b);
-    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
-      push(number, contacts_.points[p], contacts_.points[p].impulse, a, b);
-    if (cell_.moves()) cell_.leave(number, b);
-    velocity_.scatter(group, a, b);
   }
   /// Adds what impulses at a point of group `number` do to the velocities of its bodies.
   void push(std::size_t number, const Points& point, const Row& impulse, BodyLanes& a,

@@ -41,6 +41,12 @@ class LaneVelocities {
     for (int k = 0; k < S::dofs; ++k)
       now_[registers * body + std::size_t(k / Number::lanes)][k % Number::lanes] = y[k];
   }
+  /// Change of the velocity of a body, (v, w).
+  std::array<T, std::size_t{S::dofs}> of(std::size_t body) const {
+    std::array<T, std::size_t{S::dofs}> y;
+    for (std::size_t k = 0; k < S::dofs; ++k) y[k] = entry(body, k);
+    return y;
+  }
   /// Makes the present velocities the velocities before the next extrapolation, which then adds nothing.
   void forget_change() { before_ = now_; }
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.

@@ -49,16 +49,7 @@ class PackFiller {
         rows[lane] = Numbers::begin(contacts[lane] == none ? unused : op.point(contacts[lane]));
       read(point, rows);
     }
-    static const Impulse zero = Impulse::Zero();
-    std::array<const Impulse*, lanes> of_lane;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      of_lane[lane] = contacts[lane] == none ? &zero : &impulses[contacts[lane]];
-    for (std::size_t d = 0; d < rows_of_point; ++d) {
-      typename Lanes::Values row{};
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        row[lane] = (*of_lane[lane])[Eigen::Index(d)];
-      point.impulse[d] = point.before[d] = row;
-    }
+    set_impulses(point, contacts, impulses);
     if constexpr (CompliantLaw<Law, S>) point.compliance = {};
     LawLanes<Law, S> law{};
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -71,8 +62,34 @@ class PackFiller {
     }
     point.law = law;
   }
+  /// Replaces the free velocities and the impulses of a PointPack; the laws forget their local solutions.
+  static void refill(Points& point, const std::uint32_t* contacts,
+                     const ContactProblem<Operator, Law>& problem,
+                     std::span<const Impulse> impulses) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t c = contacts[lane];
+      if (c == none) continue;
+      for (std::size_t d = 0; d < rows_of_point; ++d)
+        point.free[d][lane] = problem.delassus.free_velocity(c)[Eigen::Index(d)];
+      point.law.set(lane, problem.law(c));
+    }
+    set_impulses(point, contacts, impulses);
+  }
 
  private:
+  static void set_impulses(Points& point, const std::uint32_t* contacts,
+                           std::span<const Impulse> impulses) {
+    static const Impulse zero = Impulse::Zero();
+    std::array<const Impulse*, lanes> of_lane;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      of_lane[lane] = contacts[lane] == none ? &zero : &impulses[contacts[lane]];
+    for (std::size_t d = 0; d < rows_of_point; ++d) {
+      typename Lanes::Values row{};
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        row[lane] = (*of_lane[lane])[Eigen::Index(d)];
+      point.impulse[d] = point.before[d] = row;
+    }
+  }
   /// Reads frames, levers, blocks and free velocities.
   /// @param rows the PointNumbers of each lane
   static void read(Points& point, const std::array<const typename S::Scalar*, lanes>& rows) {

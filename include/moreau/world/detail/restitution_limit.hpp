@@ -296,7 +296,11 @@ class RestitutionLimit {
     constexpr double small =
         std::max(1e-5, Island::rounding);  // as the velocities of bodies, see ColouredOptions
     for (int k = 1;; ++k) {
-      SolveReport found = solver.solve(problem, impulses, workspace);
+      SolveReport found;
+      if constexpr (requires { solver.solve(problem, impulses, workspace, /*again=*/true); })
+        found = solver.solve(problem, impulses, workspace, /*again=*/true);
+      else
+        found = solver.solve(problem, impulses, workspace);
       measure(problem, impulses, springs, forced, Scalar(1), resting_);
       add_up(bodies, problem);
       const double change = change_by_shares(bodies, problem);
