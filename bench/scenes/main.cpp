@@ -14,16 +14,17 @@
 //                  benchmark of this name (there 80 layers)
 //   pyramid        820 boxes in 40 rows
 //   mesh           1,000 hulls on a wavy mesh of 20,000 triangles
-//   plane_falling, plane_resting, plane_pyramid   2,000 polygons, 820 squares in the plane
+//   plane_pressed, plane_falling, plane_resting, plane_pyramid   1,200 and 2,000 polygons, 820 squares in the plane
 //
 //   scalar=float   single precision (default double)
 //   points=few     at most D points of a contact between faces (default all)
 //   tolerance=R    of the residual (default 1e-3)
+//   stop=qm16      LMGC90's stopping test in place of the residual
 //   narrows=no     contacts of all pairs within the margin (default: up to the gap that a pair can close in a step)
 //   islands=no     small islands by sweeps, too, also those of the overlap correction (default: by the direct method)
 //   interval=N, cap=N, accelerate=no    ColouredOptions::check_interval, max_sweeps, accelerate
 //   correct=no     without overlap correction; correction_sweeps=N, slop=S, rate=R: its options
-//   skin=S, carry=C    Tolerances::skin, Tolerances::carry
+//   skin=S, carry=C, resolution=R    Tolerances::skin, carry, resolution
 //   setting=games  the options of examples/guide/choosing.md for the accuracy of physics engines for games
 //   margin=M       of detection, relative to the grain size (default: that of the scene)
 //   order=O        of the grains: added (default; the order of pouring), curve or random
@@ -113,8 +114,14 @@ void set(Options& options, const std::string& argument) {
       {"narrows", [&] { options.tolerances.narrows = yes; }},
       {"carry", [&] { options.tolerances.carry = number(); }},
       {"skin", [&] { options.tolerances.skin = number(); }},
+      {"resolution", [&] { options.tolerances.resolution = number(); }},
       {"islands", [&] { options.solver.islands = options.correction.islands = yes; }},
       {"tolerance", [&] { options.solver.tolerance = number(); }},
+      {"stop",
+       [&] {
+         if (value != "qm16") throw std::invalid_argument(value + ": no such stopping test");
+         options.solver.stop_test = moreau::StopTest::qm16;
+       }},
       {"interval", [&] { options.solver.check_interval = count(); }},
       {"cap", [&] { options.solver.max_sweeps = count(); }},
       {"accelerate", [&] { options.solver.accelerate = yes; }},

@@ -19,7 +19,7 @@
 namespace scenes {
 
 /// 1,200 random grains with radii of 2.5, 3.75 and 5 cm, each with a shape of its own, poured one after the other
-/// into a box with a floor of 0.5 m x 0.5 m. A wall of 50 kg presses them from above by 3 kN, then by
+/// into a box with a floor of 0.5 m x 0.5 m, in the plane of 2 m. A wall of 50 kg presses them from above by 3 kN, then by
 /// 3 + 3 sin(2 pi 5 t) kN. Friction 0.5 between grains and 0 at walls, no restitution, h = 2e-4 s.
 template <class ShapeT>
 Scene<ShapeT> pressed_box(const Options& options) {
@@ -29,7 +29,7 @@ Scene<ShapeT> pressed_box(const Options& options) {
   using Vector = typename S::Vector;
   using World = typename Made::World;
   constexpr int up = S::dim - 1;
-  constexpr Scalar length(0.5);
+  constexpr Scalar length(S::dim == 3 ? 0.5 : 2);
   const std::size_t count = options.size > 0 ? std::size_t(options.size) : 1200;
 
   std::mt19937_64 random(1);

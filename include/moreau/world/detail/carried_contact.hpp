@@ -6,7 +6,8 @@
 // Let the pair have moved by m: the displacement of b in the axes of a, plus the largest displacement of a point of b by
 // the rotation relative to a. The normal stays in the axes of a. It is wrong by an angle of at most m / R, R being the
 // radius of b, and a gap by at most m times this angle; a corner of the contact polygon is wrong by m across the normal.
-// Errors do not add up: m counts from the last detection.
+// Errors do not add up: m counts from the last detection. Points closer together than Tolerances::resolution are merged, so
+// that two boxes that lie on each other have four points and not up to eight.
 #pragma once
 
 #include <array>
@@ -87,12 +88,13 @@ class CarriedContact {
     out.contact_class = contact_class_;
     for (std::size_t k = 0; k < count_; ++k) {
       const Point& point = points_[k];
-      const Vector on_b = now.apart + product(now.turn, point.on_b);
+      const Vector on_b = now.apart + inlined_product(now.turn, point.on_b);
       const Scalar gap = normal_.dot(on_b - point.on_a);
       if (!(gap <= margin)) continue;
       out.gap = gap < out.gap ? gap : out.gap;
       const Vector middle = (point.on_a + on_b) / 2;
-      out.points.push_back({now.center_a + product(now.axes_a, middle), gap, point.feature});
+      out.points.push_back(
+          {now.center_a + inlined_product(now.axes_a, middle), gap, point.feature});
     }
     return !out.points.empty();
   }
