@@ -248,7 +248,8 @@ class ColouredGaussSeidel {
         sweeps.restore(team_);
       }
     }
-    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least) sweeps.restore(team_);
+    if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least)
+      sweeps.restore(team_);
     if (!report.converged) certify(problem, impulses, sweeps, report);
     if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
     report.capped = !report.converged;

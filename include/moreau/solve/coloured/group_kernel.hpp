@@ -88,7 +88,8 @@ class GroupKernel {
   /// @param impulses those of the points, in the order of the problem
   void give_velocities(Operator& op, std::span<const Impulse> impulses, const Team& team,
                        SharedBodies* shared) {
-    op.set_changes(impulses, [this](std::size_t i) { return velocity_.of(i); }, team);
+    op.set_changes(
+        impulses, [this](std::size_t i) { return velocity_.of(i); }, team);
     if (shared) {
       shared->average(op.velocity_changes(), Operator::width);
       for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.velocity_change(i));

@@ -121,7 +121,7 @@ class PairCaches {
     std::array<bool, most> gone{};
     for (std::size_t i = 1; i < count; ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const ManifoldPoint<S> &one = out.points[i], &other = out.points[j];
+        const ManifoldPoint<S>&one = out.points[i], &other = out.points[j];
         if (gone[i] || gone[j] || !((one.position - other.position).norm() < resolution)) continue;
         gone[one.gap < other.gap ? j : i] = true;
       }
