@@ -6,8 +6,7 @@
 // Let the pair have moved by m: the displacement of b in the axes of a, plus the largest displacement of a point of b by
 // the rotation relative to a. The normal stays in the axes of a. It is wrong by an angle of at most m / R, R being the
 // radius of b, and a gap by at most m times this angle; a corner of the contact polygon is wrong by m across the normal.
-// Errors do not add up: m counts from the last detection. Points closer together than Tolerances::resolution are merged, so
-// that two boxes that lie on each other have four points and not up to eight.
+// Errors do not add up: m counts from the last detection.
 #pragma once
 
 #include <array>

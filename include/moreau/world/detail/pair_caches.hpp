@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -72,17 +71,16 @@ class PairCaches {
   /// Collides pair p.
   /// @param rotation_a,rotation_b of the bodies
   /// @param carry largest motion up to which its contact is carried along; 0: it is detected [m]
-  /// @param resolution points of a contact that is carried along are merged if they are closer together than this [m]
   /// @param use   called if the pair is in contact, when `out` contains its points
   /// @returns whether it is
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation& rotation_a,
                      const Placed<ShapeT>& b, const Rotation& rotation_b, Scalar margin,
-                     Scalar carry, Scalar resolution, Manifold<S>& out, auto&& use) {
+                     Scalar carry, Manifold<S>& out, auto&& use) {
     const auto touch = [&] {
       if constexpr (can_carry<ShapeT>)
         if (carry > 0 && !carried_.empty())
           return carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b, margin,
-                             carry, resolution, out);
+                             carry, out);
       return collide(a, b, margin, out, caches_[p]);
     };
     if (!touch()) return false;
@@ -98,7 +96,6 @@ class PairCaches {
   [[gnu::noinline]] bool carry_along(std::size_t p, const Placed<ShapeT>& a,
                                      const typename CarriedContact<S>::Placing& now,
                                      const Placed<ShapeT>& b, Scalar margin, Scalar carry,
-                                     Scalar resolution,
                                      Manifold<S>& out) requires can_carry<ShapeT> {
     CarriedContact<S>& carried = carried_[p];
     if (p + 1 < carried_.size()) prefetch(&carried_[p + 1], sizeof(CarriedContact<S>));
@@ -106,26 +103,9 @@ class PairCaches {
     const Scalar known = margin + 2 * carry;
     carried.clear();
     if (!collide(a, b, known, out, caches_[p])) return false;
-    merge_points(resolution, out);
     carried.store(now, out, known);
     erase_if(out.points, [&](const auto& point) { return !(point.gap <= margin); });
     return !out.points.empty();
-  }
-
-  /// Of two contact points closer together than the resolution, keeps the one with the smaller gap. Edges of two faces
-  /// that nearly lie on each other cross close to their corners.
-  static void merge_points(Scalar resolution, Manifold<S>& out) {
-    constexpr std::size_t most = CarriedContact<S>::most;
-    const std::size_t count = out.points.size();
-    if (count > most) return;
-    std::array<bool, most> gone{};
-    for (std::size_t i = 1; i < count; ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const ManifoldPoint<S>&one = out.points[i], &other = out.points[j];
-        if (gone[i] || gone[j] || !((one.position - other.position).norm() < resolution)) continue;
-        gone[one.gap < other.gap ? j : i] = true;
-      }
-    erase_at(out.points, [&](std::size_t k) { return gone[k]; });
   }
 
   List<PairCache<S>> caches_, old_;  // one per pair of the list
@@ -218,7 +198,7 @@ class PairCaches<ShapeT> {
   /// @param use called for each pair of parts in contact, when `out` contains its points
   /// @returns whether there was one
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation&,
-                     const Placed<ShapeT>& b, const Rotation&, Scalar margin, Scalar, Scalar,
+                     const Placed<ShapeT>& b, const Rotation&, Scalar margin, Scalar,
                      Manifold<S>& out, auto&& use) {
     bool touch = false;
     for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k) {
