@@ -65,6 +65,18 @@ TEST_CASE("check: nothing is said about a cube that falls on a floor in short st
   CHECK(run(world, 5e-4, 400).empty());
 }
 
+TEST_CASE("check: gravity that was forgotten") {
+  World world = cube(0.02, 0.02);
+  world.set_gravity({0, 0, 0});
+  CHECK(check(world, world.step(5e-4)).empty());
+  CHECK(one_contains(run(world, 5e-4, 1), "nothing moves: gravity is zero"));
+  world.set_velocity(world.grain(0), {0, 0, -1e-3});
+  CHECK(run(world, 5e-4, 1).empty());
+  world.set_velocity(world.grain(0), {0, 0, 0});
+  world.set_force(world.grain(0), {0, 0, -1});
+  CHECK(run(world, 5e-4, 1).empty());
+}
+
 TEST_CASE("check: a step too long for the speeds") {
   World world = cube(0.02, 0.5);
   const auto all = run(world, 0.05, 10);

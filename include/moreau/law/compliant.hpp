@@ -49,6 +49,7 @@
 #include <concepts>
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "moreau/core/error.hpp"
@@ -57,6 +58,16 @@
 #include "moreau/law/signorini_coulomb.hpp"
 
 namespace moreau {
+namespace detail {
+
+/// Arguments that make no Made, a law in springs: neither another Made nor a law and one or two stiffnesses.
+template <class First, class Made, class Law, class Scalar, class... More>
+concept NoLawAndStiffness =
+    !std::derived_from<First, Made> && (sizeof...(More) == 0 || sizeof...(More) > 2 ||
+                                        !std::conjunction_v<std::is_convertible<First, const Law&>,
+                                                            std::is_convertible<More, Scalar>...>);
+
+}  // namespace detail
 
 /// A set-valued law with elastic springs in series; the head of this file has its equations. The
 /// stiffness is that of a pair of bodies: if the pair has n contact points, each has 1/n of it, so
@@ -89,6 +100,15 @@ class Compliant : public Law {
   }
   /// With k_t = k_n.
   Compliant(const Law& law, Scalar stiffness) : Compliant(law, stiffness, stiffness) {}
+
+  /// Other arguments end in one sentence.
+  template <class First, class... More>
+  requires detail::NoLawAndStiffness<First, Compliant, Law, Scalar, More...>
+  explicit Compliant(const First&, const More&...) {
+    static_assert(sizeof...(More) > 99,
+                  "Compliant: the arguments are a law and its stiffness k_n, or k_n and k_t [N/m]: "
+                  "Compliant<Law>(Law(0.4), 1e6, 5e5)");
+  }
 
   Scalar stiffness() const { return stiffness_; }                   ///< k_n [N/m]
   Scalar tangential_stiffness() const { return tangential_; }       ///< k_t [N/m]

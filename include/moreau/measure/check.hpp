@@ -60,6 +60,8 @@ class SentencesOnce {
 ///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees). A step so
 ///            long that gravity moves a grain at rest by more than a fifth of its size (ms)
 ///          - gravity points along the last axis, and no wall and no obstacle lies there
+///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
+///            will ever move
 ///          - a grain is lost: far from all others, or so far from the origin that the scalar holds its
 ///            position only to more than a thousandth of the grain size
 template <class Simulation>
@@ -70,6 +72,10 @@ template <class Simulation>
   const bool is_first = double(simulation.time()) < 1.5 * report.step;
   detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
   detail::check_units(found, simulation, report.step);
+  if (!is_first && detail::is_idle(simulation, report))
+    found.say(
+        "nothing moves: gravity is zero, and no body has a velocity or a force. Call set_gravity()",
+        {});
   detail::check_lost(found, simulation);
   return found.sentences;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of check() that looks for numbers in other units than SI, and for gravity of the wrong sign.
+// The part of check() that looks for numbers in other units than SI, and for gravity that is missing or has the wrong
+// sign.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "moreau/detect/placed.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/shape/circumradius.hpp"
+#include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
 
@@ -134,6 +136,18 @@ template <class Simulation>
         "the "
         "last axis points up, type %",
         {double(simulation.gravity()[last]), -double(simulation.gravity()[last])});
+}
+
+/// Whether nothing moves, and nothing will: no gravity, and no body has a velocity, a force or a part of its overlap
+/// that a spring or the correction would push back.
+template <class Simulation>
+[[gnu::cold]] bool is_idle(const Simulation& simulation, const StepReport& report) {
+  bool idle = simulation.grain_count() > 0 && simulation.gravity().isZero(0) &&
+              !simulation.cell_motion().is_active() && report.overlapping == 0;
+  const auto& bodies = simulation.bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    idle = idle && bodies.velocity[i].isZero(0) && bodies.force[i].isZero(0);
+  return idle;
 }
 
 }  // namespace moreau::detail
