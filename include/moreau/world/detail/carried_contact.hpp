@@ -6,7 +6,8 @@
 // Let the pair have moved by m: the displacement of b in the axes of a, plus the largest displacement of a point of b by
 // the rotation relative to a. The normal stays in the axes of a. It is wrong by an angle of at most m / R, R being the
 // radius of b, and a gap by at most m times this angle; a corner of the contact polygon is wrong by m across the normal.
-// Errors do not add up: m counts from the last detection.
+// Errors do not add up: m counts from the last detection. Points within Tolerances::resolution of the segment between two
+// others are left out, so that boxes that lie on each other have four points and not up to six.
 #pragma once
 
 #include <array>

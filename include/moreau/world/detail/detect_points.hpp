@@ -144,8 +144,8 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_of(std::size_t k,
         lengths.slow > 0 && is_slow(a, b, bodies, lengths.slow) ? lengths.carry : 0;
     found.add(a, b, previous, [&](auto&& add) {
       return near_.caches().collide_parts(p, a.placed, poses[a.body.index()].rotation, b.placed,
-                                          poses[b.body.index()].rotation, of_pair, carry, manifold,
-                                          add);
+                                          poses[b.body.index()].rotation, of_pair, carry,
+                                          lengths.resolution, manifold, add);
     });
   }
   const Scalar of_walls = margins_.of_walls(k, margin);

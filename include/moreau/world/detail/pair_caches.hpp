@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -71,16 +72,17 @@ class PairCaches {
   /// Collides pair p.
   /// @param rotation_a,rotation_b of the bodies
   /// @param carry largest motion up to which its contact is carried along; 0: it is detected [m]
+  /// @param resolution of the points of a contact that is carried along, see thin_out() [m]
   /// @param use   called if the pair is in contact, when `out` contains its points
   /// @returns whether it is
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation& rotation_a,
                      const Placed<ShapeT>& b, const Rotation& rotation_b, Scalar margin,
-                     Scalar carry, Manifold<S>& out, auto&& use) {
+                     Scalar carry, Scalar resolution, Manifold<S>& out, auto&& use) {
     const auto touch = [&] {
       if constexpr (can_carry<ShapeT>)
         if (carry > 0 && !carried_.empty())
           return carry_along(p, a, {a.center(), rotation_a, b.center(), rotation_b}, b, margin,
-                             carry, out);
+                             carry, resolution, out);
       return collide(a, b, margin, out, caches_[p]);
     };
     if (!touch()) return false;
@@ -96,6 +98,7 @@ class PairCaches {
   [[gnu::noinline]] bool carry_along(std::size_t p, const Placed<ShapeT>& a,
                                      const typename CarriedContact<S>::Placing& now,
                                      const Placed<ShapeT>& b, Scalar margin, Scalar carry,
+                                     Scalar resolution,
                                      Manifold<S>& out) requires can_carry<ShapeT> {
     CarriedContact<S>& carried = carried_[p];
     if (p + 1 < carried_.size()) prefetch(&carried_[p + 1], sizeof(CarriedContact<S>));
@@ -103,9 +106,32 @@ class PairCaches {
     const Scalar known = margin + 2 * carry;
     carried.clear();
     if (!collide(a, b, known, out, caches_[p])) return false;
+    thin_out(resolution, out);
     carried.store(now, out, known);
     erase_if(out.points, [&](const auto& point) { return !(point.gap <= margin); });
     return !out.points.empty();
+  }
+
+  /// Removes points that lie within the resolution of the segment between two others, one after the other: where faces
+  /// touch, their gaps follow from those of the others. The edges of two faces that nearly coincide cross between their
+  /// ends.
+  static void thin_out(Scalar resolution, Manifold<S>& out) {
+    constexpr std::size_t most = CarriedContact<S>::most;
+    const std::size_t count = out.points.size();
+    if (count <= 2 || count > most) return;
+    std::array<bool, most> gone{};
+    const auto is_between = [&](std::size_t k, std::size_t i, std::size_t j) {
+      const auto &x = out.points[k].position, &from = out.points[i].position;
+      const typename S::Vector along = out.points[j].position - from, to = x - from;
+      const Scalar length2 = along.squaredNorm(), part = to.dot(along);
+      if (!(part > 0 && part < length2)) return false;
+      return to.squaredNorm() - part * part / length2 < resolution * resolution;
+    };
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < count && !gone[k]; ++i)
+        for (std::size_t j = 0; j < i && !gone[k]; ++j)
+          gone[k] = i != k && j != k && !gone[i] && !gone[j] && is_between(k, i, j);
+    erase_at(out.points, [&](std::size_t k) { return gone[k]; });
   }
 
   List<PairCache<S>> caches_, old_;  // one per pair of the list
@@ -198,7 +224,7 @@ class PairCaches<ShapeT> {
   /// @param use called for each pair of parts in contact, when `out` contains its points
   /// @returns whether there was one
   bool collide_parts(std::size_t p, const Placed<ShapeT>& a, const Rotation&,
-                     const Placed<ShapeT>& b, const Rotation&, Scalar margin, Scalar,
+                     const Placed<ShapeT>& b, const Rotation&, Scalar margin, Scalar, Scalar,
                      Manifold<S>& out, auto&& use) {
     bool touch = false;
     for (std::size_t k = begin(ends_, p); k < ends_[p]; ++k) {
