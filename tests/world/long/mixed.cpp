@@ -110,14 +110,15 @@ TEST_CASE("a plank on rollers takes their speed and does not sink") {
     double spin, h, bound;
   };
   for (const Case& c : {Case{10, 5e-3, 1e-6}, Case{10, 1e-3, 1e-7}, Case{50, 1e-3, 1e-5}})
-    for (const bool has_capsules : {true, false}) {
+    for (const double half_length : {0.1, 0.3, 0.0}) {  // narrower and wider than the plank; balls
+      const bool has_capsules = half_length > 0;
       CAPTURE(c.spin);
       CAPTURE(c.h);
-      CAPTURE(has_capsules);
+      CAPTURE(half_length);
       World world(0.1, Materials<Law>(1, Law(0.3)));
       world.set_gravity({0, 0, -9.81});
-      const ShapeId roller =
-          has_capsules ? world.add_shape(CapsuleIn<S>(0.1, 0.1)) : world.add_shape(BallIn<S>(0.1));
+      const ShapeId roller = has_capsules ? world.add_shape(CapsuleIn<S>(half_length, 0.1))
+                                          : world.add_shape(BallIn<S>(0.1));
       const S::Rotation across = S::exp({0, 0, 1.5707963267948966});
       for (int k = 0; k < 12; ++k)
         for (const double y : {-0.1, 0.1}) {
@@ -135,6 +136,62 @@ TEST_CASE("a plank on rollers takes their speed and does not sink") {
       CHECK(std::abs(world.pose(body).position[2] - 0.15) < c.bound);
       CHECK(std::abs(world.velocity(body)[0] - speed) < 1e-3 * speed);
     }
+}
+
+TEST_CASE("a grain slides along a bar that spins about its axis, and stays at its height") {
+  const S::Rotation across = S::exp({0, 0, 1.5707963267948966});
+  for (const double spin : {0.0, 1e-9, 3.0, -100.0})
+    for (const double v : {1.0, 3.0})
+      for (const bool is_ball : {true, false}) {
+        CAPTURE(spin);
+        CAPTURE(v);
+        CAPTURE(is_ball);
+        Simulation<Grain, Law> world(0.04, Materials<Law>(1, Law(0)));
+        world.set_gravity({0, 0, -9.81});
+        const BodyId bar = world.add_grain(world.add_shape(CapsuleIn<S>(1, 0.02)), {}, 1000);
+        world.prescribe_motion(bar);
+        world.set_spin(bar, {spin, 0, 0});
+        const ShapeId shape =
+            is_ball ? world.add_shape(BallIn<S>(0.02)) : world.add_shape(CapsuleIn<S>(0.03, 0.02));
+        const BodyId grain = world.add_grain(shape, {{-0.5, 0, 0.04}, across}, 1000);
+        world.set_velocity(grain, {v, 0, 0});
+        for (int k = 0; k < 200; ++k) world.step(1e-3);
+        CHECK(std::abs(world.pose(grain).position[2] - 0.04) < 1e-9);
+        CHECK(std::abs(world.velocity(grain)[0] - v) < 1e-9);
+      }
+}
+
+// In the frame of the arm x'' = Omega^2 x along it, and the arm pushes with m (2 Omega x' - Omega^2 y).
+TEST_CASE("an arm that turns pushes a ball outwards, to second order") {
+  const auto error_of_place = [](double omega, double h) {
+    Simulation<Grain, Law> world(0.04, Materials<Law>(1, Law(0)));
+    const BodyId arm = world.add_grain(world.add_shape(CapsuleIn<S>(1, 0.02)), {}, 1000);
+    world.prescribe_motion(arm);
+    world.set_spin(arm, {0, 0, omega});
+    const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.02)), {{0.1, 0.04, 0}}, 1000);
+    world.set_velocity(ball, {-0.04 * omega + 0.05 * omega, 0.1 * omega, 0});
+    const double m = world.shape(ball).mass_properties(1000).mass;
+    const int steps = int(2 / omega / h);
+    double force = 0, right = 0;
+    for (int k = 0; k < steps; ++k) {
+      world.step(h);
+      if (k < steps / 2) continue;
+      const double t = (k + 0.5) * h;
+      force += world.contact_impulse(ball).norm() / h;
+      right += m * omega * omega * (0.2 * std::sinh(omega * t) + 0.1 * std::cosh(omega * t) - 0.04);
+    }
+    CHECK(std::abs(force / right - 1) < 2e-3);
+    const Vector place = world.pose(arm).rotation.inverse() * Vector(world.pose(ball).position);
+    const double t = omega * h * steps;
+    return std::abs(place[0] - 0.1 * std::cosh(t) - 0.05 * std::sinh(t)) +
+           std::abs(place[1] - 0.04);
+  };
+  for (const double omega : {5.0, 20.0}) {
+    const double coarse = error_of_place(omega, 0.02 / omega),
+                 fine = error_of_place(omega, 0.005 / omega);
+    CHECK(coarse < 4e-4);
+    CHECK(fine < coarse / 8);
+  }
 }
 
 }  // namespace

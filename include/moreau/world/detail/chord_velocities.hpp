@@ -43,6 +43,11 @@
 // lost half of its energy in 20 turns. On a ball at rest the normal turns with the cores, m = r u_t / d with the radius
 // r of the ball that rolls: one that spins and rolls round on it lost its lean and 0.1 % of its spin per turn.
 //
+// The side of a capsule, and of a Cylinder, is straight: nothing bends along it. It is followed in a frame that turns
+// with the axis e of the side, but not about it, at the rate w - e (e . w): the core of the other body stays at its place
+// in this frame but for its motion s relative to it. If that core is a point, as of a ball or an end, the normal turns
+// about the axis, and the curvature is h/2 (s . (e x n))^2 / d. The edge of a face lies across the axis and has none.
+//
 // A bond is fixed to a point of each body. Its X_a and X_b are its levers, nothing rolls, and its frame turns with both
 // bodies: the displacement of the points over the step is all.
 #pragma once
@@ -57,15 +62,11 @@
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/detect/shape_kinds.hpp"
 #include "moreau/motion/bodies.hpp"
-#include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
-#include "moreau/shape/cylinder.hpp"
-#include "moreau/shape/one_of.hpp"
-#include "moreau/shape/rounded.hpp"
 #include "moreau/world/bond.hpp"
 #include "moreau/world/detail/assembly.hpp"
+#include "moreau/world/detail/grain_core.hpp"
 
 namespace moreau::detail {
 
@@ -85,44 +86,6 @@ template <class S>
   const T second = is_small ? (1 - square / 12) / 2 : 2 * half * half / square;
   const typename S::Vector along = S::spin(w, lever);
   return first * along + second * step * S::spin(w, along);
-}
-
-/// Radius of the rounding around the core of a grain [m]; < 0 if it is not known.
-/// @param outward unit, in which the grain is touched, body axes
-template <class ShapeT>
-typename SpaceOf<ShapeT>::Scalar core_rounding(const ShapeT&,
-                                               const typename SpaceOf<ShapeT>::Vector&) {
-  return Polytope<ShapeT> ? 0 : -1;
-}
-template <class S>
-typename S::Scalar core_rounding(const BallIn<S>& ball, const typename S::Vector&) {
-  return ball.radius();
-}
-/// Of the round side, whose core is the axis. What stands on an end, or on a rim, does not roll about its axis.
-template <std::floating_point T>
-T core_rounding(const Cylinder<T>& cylinder, const typename Cylinder<T>::Vector& outward) {
-  return std::abs(outward[0]) < T(0.1) ? cylinder.radius() : T(-1);
-}
-template <class Core>
-typename SpaceOf<Core>::Scalar core_rounding(const Rounded<Core>& shape,
-                                             const typename SpaceOf<Core>::Vector& outward) {
-  return shape.radius() +
-         std::max(typename SpaceOf<Core>::Scalar(0), core_rounding(shape.core(), outward));
-}
-template <class... Shapes>
-auto core_rounding(const OneOf<Shapes...>& shape,
-                   const typename SpaceOf<OneOf<Shapes...>>::Vector& outward) {
-  return shape.visit([&](const auto& held) { return core_rounding(held, outward); });
-}
-
-/// Whether a grain is a ball.
-template <class ShapeT>
-bool core_is_point(const ShapeT&) {
-  return moreau::is_ball<ShapeT>;
-}
-template <class... Shapes>
-bool core_is_point(const OneOf<Shapes...>& shape) {
-  return shape.visit([](const auto& held) { return core_is_point(held); });
 }
 
 /// The velocities to add to the relative velocities of contacts, so that these times h are displacements
@@ -235,6 +198,21 @@ class ChordVelocities {
     if (radius < 0 && assembly.bodies().rotates(body)) return lever;
     return (std::max(Scalar(0), radius) + gap / 2) * outward;
   }
+  /// Unit vector along the straight side of a body that touches, world axes; zero of others.
+  static Vector side_of(const Assembly<ShapeT>& assembly, std::uint32_t body,
+                        [[maybe_unused]] std::uint32_t part, bool is_edge, const Vector& outward) {
+    const Bodies<S>& bodies = assembly.bodies();
+    if (!(bodies.grain_mass[body] > 0)) return Vector::Zero();
+    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
+    const auto along = [&](const auto& held, const auto& rotation) {
+      return Vector(rotation * straight_side(held, is_edge, Vector(rotation.inverse() * outward)));
+    };
+    if constexpr (CompoundShape<ShapeT>)
+      return along(shape.parts()[part].shape,
+                   bodies.pose[body].rotation * shape.parts()[part].pose.rotation);
+    else
+      return along(shape, bodies.pose[body].rotation);
+  }
   /// Of a bond.
   static Vector between_points(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
                                Scalar step) {
@@ -262,6 +240,23 @@ class ChordVelocities {
     const bool is_round = (turning_is_a ? of_side_a : of_side_b) > 0;
     const bool has_face = kind == face_of_a || kind == face_of_b || !is_round;
     const bool owner_is_a = kind == face_of_a || (kind != face_of_b && turning_is_a);
+    if constexpr (has_straight_sides<moreau::PartOf<ShapeT>>) {
+      using Kind = FeatureKey::Kind;
+      const bool edge_a = kind == Kind::edge_edge || kind == Kind::edge_vertex,
+                 edge_b = kind == Kind::edge_edge || kind == Kind::vertex_edge;
+      const Vector side_a = side_of(assembly, a, key.part_a, edge_a, normal),
+                   side_b = side_of(assembly, b, key.part_b, edge_b, -normal);
+      const bool side_is_a = turning_is_a ? !side_a.isZero(0) : side_b.isZero(0);
+      const Vector& side = side_is_a ? side_a : side_b;
+      if (!has_face && !side.isZero(0)) {
+        const bool is_point = side_is_a ? !edge_b && of_side_b > 0 && side_b.isZero(0)
+                                        : !edge_a && of_side_a > 0 && side_a.isZero(0);
+        return along_side(bodies, contact,
+                          {side, core_a, core_b, side_is_a, turning_is_a, is_point,
+                           turning_is_a ? of_side_b : of_side_a},
+                          step);
+      }
+    }
     const Vector lever_a = contact.lever_a - (has_face && owner_is_a ? core_b : core_a),
                  lever_b = contact.lever_b - (has_face && !owner_is_a ? core_a : core_b);
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
@@ -284,6 +279,45 @@ class ChordVelocities {
       sum += sign * rolling(normal, of_grain, of_wall, swing, Vector(sign * slip), step);
     }
     return sum + bend * normal;
+  }
+  /// A contact at the straight side of a body.
+  struct Side {
+    Vector along;             // unit
+    Vector core_a, core_b;    // from the core of the body to the contact point [m]
+    bool is_a, turning_is_a;  // whether the side is that of a, whether the wall is a
+    bool is_point;            // whether the core of the other body is a point
+    Scalar rounding;          // of the grain [m]
+  };
+  [[gnu::cold, gnu::noinline]] static Vector along_side(const Bodies<S>& bodies,
+                                                        const Contact<S>& contact, const Side& side,
+                                                        Scalar step) {
+    const Vector normal = contact.frame.col(0);
+    const auto &twist_a = bodies.velocity[contact.a], &twist_b = bodies.velocity[contact.b];
+    const Angular of_a = angular<S>(twist_a), of_b = angular<S>(twist_b);
+    const Vector lever_a = contact.lever_a - side.core_a, lever_b = contact.lever_b - side.core_b;
+    const Vector apart = side.core_a - side.core_b;  // from the core of a to that of b
+    const Angular& of_owner = side.is_a ? of_a : of_b;
+    const Angular tilt = of_owner - side.along * side.along.dot(of_owner);
+    // The core of the other body relative to the frame of the side.
+    const Vector slip =
+        velocity_at<S>(twist_b, lever_b) - velocity_at<S>(twist_a, lever_a) - S::spin(tilt, apart);
+    const Vector own = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
+    const Vector aside = S::spin(side.along, normal);
+    const Scalar distance = apart.norm();
+    const Scalar rate = side.is_point && distance > 0 ? slip.dot(aside) / distance : Scalar(0);
+    const Scalar along_normal = normal.dot(own - chord_excess<S>(tilt, apart, step)) +
+                                step * S::spin(tilt, normal).dot(slip) +
+                                step / 2 * rate * rate * distance;
+    Vector sum = own;
+    if (side.rounding > 0 && side.is_a == side.turning_is_a) {
+      const Scalar sign = side.turning_is_a ? -1 : 1;
+      const Angular &of_wall = side.turning_is_a ? of_a : of_b,
+                    &of_grain = side.turning_is_a ? of_b : of_a;
+      const Vector swing = sign * side.rounding * (S::spin(tilt, normal) + rate * aside);
+      const Vector material = slip - S::spin(Angular(of_wall - tilt), apart);
+      sum += sign * rolling(normal, of_grain, of_wall, swing, Vector(sign * material), step);
+    }
+    return sum + (along_normal - normal.dot(sum)) * normal;
   }
   /// What the relative velocity of a rounded grain and a wall changes by along the wall until the end of the step
   /// beside the chords: the place of the contact moves with the grain, and the lever from the core turns with the
