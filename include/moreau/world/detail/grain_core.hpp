@@ -59,10 +59,11 @@ typename S::Vector straight_side(const Segment<S>&, bool is_edge, const typename
   return is_edge ? typename S::Vector(S::Vector::UnitX()) : typename S::Vector(S::Vector::Zero());
 }
 template <std::floating_point T>
-typename Space<3, T>::Vector straight_side(const Cylinder<T>& cylinder, bool,
-                                           const typename Space<3, T>::Vector& outward) {
-  using Vector = typename Space<3, T>::Vector;
-  return core_rounding(cylinder, outward) > 0 ? Vector(Vector::UnitX()) : Vector(Vector::Zero());
+typename Cylinder<T>::Vector straight_side(const Cylinder<T>& cylinder, bool,
+                                           const typename Cylinder<T>::Vector& outward) {
+  typename Cylinder<T>::Vector along = Cylinder<T>::Vector::Zero();
+  if (core_rounding(cylinder, outward) > 0) along = Cylinder<T>::Vector::UnitX();
+  return along;
 }
 template <class Core>
 typename SpaceOf<Core>::Vector straight_side(const Rounded<Core>& shape, bool is_edge,
@@ -75,11 +76,13 @@ auto straight_side(const OneOf<Shapes...>& shape, bool is_edge,
   return shape.visit([&](const auto& held) { return straight_side(held, is_edge, outward); });
 }
 
-/// Whether a shape can have a straight side.
+/// Whether a shape can have a straight side. In the plane, where angular velocities are numbers, the side of a capsule is
+/// a face.
 template <class ShapeT>
 inline constexpr bool has_straight_sides = false;
 template <class S>
-requires(S::dim == 3) inline constexpr bool has_straight_sides<Segment<S>> = true;
+requires std::same_as<typename S::Vector, typename S::Angular>
+inline constexpr bool has_straight_sides<Segment<S>> = true;
 template <class T>
 inline constexpr bool has_straight_sides<Cylinder<T>> = true;
 template <class Core>
