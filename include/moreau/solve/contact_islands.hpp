@@ -30,6 +30,12 @@ class ContactIslands {
     moves_.resize(bodies);
     for (std::size_t i = 0; i < bodies; ++i) moves_[i] = op.inverse_mass(i).moves();
     found_.assign(bodies, {none, 0, 0});
+    // A later step with the first small island allocates no memory.
+    of_contact_.resize(contacts);
+    contacts_.resize(contacts);
+    bodies_.reserve(bodies);
+    pairs_.reserve(bodies);
+    first_.reserve(bodies + 2);
     std::array<std::uint32_t, 2> before{none, none};
     std::uint32_t root = none;  // of the set of before[0]
     for (std::size_t c = 0; c < contacts; ++c) {
@@ -95,7 +101,6 @@ class ContactIslands {
       has_small = has_small || (island.bodies > 0 && island.bodies <= most_bodies);
     }
     if (!has_small) return;
-    of_contact_.resize(contacts);
     std::array<std::uint32_t, 2> before{none, none};
     std::uint32_t island = none;
     for (std::size_t c = 0; c < contacts; ++c) {

@@ -22,6 +22,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/core/error.hpp"
@@ -181,7 +182,8 @@ class OverlapCorrection {
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
     islands_.find(op, most_bodies);
-    pushes_.clear();
+    pushes_.resize(contacts.size());  // here, so that a later step need not allocate
+    bool any = false;
     const auto is_deep = [&](std::uint32_t c) { return depths_[c] > slop / 100; };
     const auto free = [&](std::size_t c) {
       typename S::Vector offset = S::Vector::Zero();
@@ -195,7 +197,7 @@ class OverlapCorrection {
       if (own.size() < 2 || islands_.pairs(k) > islands_.bodies(k) ||
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
-      if (pushes_.empty()) pushes_.resize(contacts.size(), S::Vector::Zero());
+      if (!std::exchange(any, true)) pushes_.assign(contacts.size(), S::Vector::Zero());
       newton_.assign(op, own, islands_.moves(), free, frictionless);
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
