@@ -71,7 +71,7 @@ class Beam {
  private:
   static moreau::ColouredGaussSeidel solver() {
     moreau::ColouredOptions options;
-    options.tolerance = 1e-11;  // of impulses that are measured from the strength of the bonds
+    options.tolerance = 1e-11;  // errors of the bonds of a row add up
     options.max_sweeps = 20000;
     return moreau::ColouredGaussSeidel(options);
   }

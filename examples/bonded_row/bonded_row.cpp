@@ -15,7 +15,7 @@ int main() {
   const double radius = 0.01, normal_stiffness = 1e7, tangential_stiffness = 5e6;  // [m], [N/m]
   const moreau::BondStrength<> strength{100, 80, 60};  // tension, shear, bending [N]
   moreau::ColouredOptions accurate;
-  accurate.tolerance = 1e-10;  // the load is a small part of the strength in tension
+  accurate.tolerance = 1e-10;  // errors of the bonds of a row add up
   accurate.max_sweeps = 20000;
   const Law law(moreau::Bonded<>(strength, 0.4), normal_stiffness, tangential_stiffness);
   moreau::Simulation<Shape, Law> simulation(2 * radius, moreau::Materials<Law>(1, law),

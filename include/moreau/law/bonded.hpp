@@ -88,12 +88,18 @@ class Bonded : public RollingResistance<T> {
   /// @param p (p_n, r_t, m) [N s]
   template <class Row>
   bool yields(const Row& p) const {
+    return opens(p) || slips(p) || bends(p);
+  }
+  /// See BondingLaw: the part of a velocity in which a bond yields: opening, slip or rotation where the impulse is at the
+  /// limit of each.
+  /// @param w (u_n, u_t, w) [m/s]
+  template <class Row>
+  Row yielding(const Row& p, Row w) const {
     using S = SpaceOfTwist<Row>;
-    const T within = (1 - std::sqrt(std::numeric_limits<T>::epsilon())) * p[0];
-    return !(p[0] > 0) ||
-           strength_.tension * p.template segment<S::dim - 1>(1).norm() >=
-               strength_.shear * within ||
-           strength_.tension * angular<S>(p).norm() >= strength_.bending * within;
+    if (!opens(p)) w[0] = 0;
+    if (!slips(p)) w.template segment<S::dim - 1>(1).setZero();
+    if (!bends(p)) angular<S>(w).setZero();
+    return w;
   }
   /// See BondingLaw: how fast a bond that yields loses its strength; infinite if it is brittle [1/s].
   /// @param w (u_n, u_t, w), the velocity at which it yields [m/s]
@@ -111,6 +117,28 @@ class Bonded : public RollingResistance<T> {
   Bonded() = default;  ///< to be read from a snapshot
 
  private:
+  /// Whether the normal impulse of a bond is that of its tensile strength, its impulse that of its strength in shear, its couple
+  /// that in bending. Without a push against the strength there is no other limit.
+  template <class Row>
+  static bool opens(const Row& p) {
+    return !(p[0] > 0);
+  }
+  template <class Row>
+  bool slips(const Row& p) const {
+    using S = SpaceOfTwist<Row>;
+    return strength_.tension * p.template segment<S::dim - 1>(1).norm() >=
+           strength_.shear * within(p);
+  }
+  template <class Row>
+  bool bends(const Row& p) const {
+    return strength_.tension * angular<SpaceOfTwist<Row>>(p).norm() >=
+           strength_.bending * within(p);
+  }
+  template <class Row>
+  static T within(const Row& p) {
+    return (1 - std::sqrt(std::numeric_limits<T>::epsilon())) * p[0];
+  }
+
   friend struct SerializationAccess;
   auto serialized_members() {
     return std::tie(static_cast<RollingResistance<T>&>(*this), strength_);

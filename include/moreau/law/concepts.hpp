@@ -178,12 +178,14 @@ concept BridgingLaw = StatefulLaw<L, S> &&
 /// - is_bonded(k): whether variant k has a bond
 /// - strength(): of a bond; its tension T is an attraction, so that the local problem is that of p = r + h T n
 /// - yields(p): whether the impulse of a bond lies at the limit of the law [N s]
+/// - yielding(p, w): the part of a velocity in which a bond with this impulse yields [m/s]
 /// - softening(w): share of its strength that a bond loses per unit of time that yields with the velocity w [1/s]
 template <class L, class S>
 concept BondingLaw = StatefulLaw<L, S> && Rolls<L> &&
     requires(const L law, typename BlockOf<L, S>::Vector p, std::size_t k) {
   { L::is_bonded(k) } -> std::same_as<bool>;
   { law.yields(p) } -> std::same_as<bool>;
+  { law.yielding(p, p) } -> std::same_as<typename BlockOf<L, S>::Vector>;
   { law.softening(p) } -> std::same_as<typename S::Scalar>;
   law.strength().tension;
 };

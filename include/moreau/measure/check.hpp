@@ -52,7 +52,7 @@ class SentencesOnce {
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
-///          - bonds: the residual is not small against the part of their strength that they bear (StepReport::bond_load)
+///          - bonds: their forces are known to less than three digits (StepReport::bond_error)
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
 ///            forces are not accurate to 10 %
 ///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below

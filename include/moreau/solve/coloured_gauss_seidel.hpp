@@ -191,7 +191,6 @@ class ColouredGaussSeidel {
   SolveReport sweep(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
-    using Vector = typename Operator::Vector;
     const SolveReport first =
         attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
     // Worse than no impulses: the warm start or the acceleration made the sweeps diverge.
@@ -199,7 +198,7 @@ class ColouredGaussSeidel {
     const int cap = diverged ? options_.max_sweeps : options_.cold_sweeps;
     if (!options_.accelerate || first.converged || cap == 0) return first;
     workspace.first.assign(impulses.begin(), impulses.end());
-    std::fill(impulses.begin(), impulses.end(), Vector::Zero());
+    detail::clear_impulses(problem, impulses);
     SolveReport second = attempt(problem, impulses, workspace.sweeps, cap, !diverged);
     second.sweeps += first.sweeps;
     if (diverged || second.converged || second.residual < first.residual) return second;
@@ -224,6 +223,9 @@ class ColouredGaussSeidel {
     double expected_change = 3 * options_.tolerance;
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0;
+    // In a closed row of rigid bonds impulses can go on changing that no motion follows from.
+    bool always = false;
+    if constexpr (BondingLaw<Law, typename Operator::Space>) always = !problem.bonds.pulls.empty();
     while (!report.converged && report.sweeps < max_sweeps) {
       sweep_to_check(sweeps, max_sweeps, report);
       const double change = std::max(report.quad_dv, report.quad_dvr);
@@ -234,7 +236,7 @@ class ColouredGaussSeidel {
         report.converged = passes_qm16(report, tolerance);
         if (report.converged) certify(problem, impulses, sweeps, report);
         report.converged = report.converged && detail::is_closed(report);
-      } else if (report.quad_dv <= share * expected_change || ++skipped == max_skipped) {
+      } else if (always || report.quad_dv <= share * expected_change || ++skipped == max_skipped) {
         skipped = 0;
         certify(problem, impulses, sweeps, report);
         report.converged = report.residual <= tolerance && detail::is_closed(report);

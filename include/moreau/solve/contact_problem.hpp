@@ -12,12 +12,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/core/list.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 
 namespace moreau {
+
+namespace detail {
+
+/// The bonds of a contact problem (law/bonded.hpp). The unknown p = r + h T of a bond is measured from its strength. A
+/// bond that bears nothing has p = h T, and its load r can be much smaller: errors are relative to r.
+template <class T>
+struct ProblemBonds {
+  std::vector<T>
+      pulls;  ///< one per contact: h T of a bond, 0 of other contacts [N s]; empty if there is no bond
+  double velocity2 = 0;  ///< sum over the bonds of |u|^2 with r = 0 [m^2/s^2]
+  /// The same of the rounding of b: in a closed row of bonds no motion makes up for it [m^2/s^2].
+  double rounding2 = 0;
+};
+/// Of a law without bonds.
+struct NoProblemBonds {};
+
+}  // namespace detail
 
 /// The problem that a ContactSolver solves; the head of this file has the equations. Kept from step to step, so
 /// that its memory is used again.
@@ -32,6 +51,10 @@ struct ContactProblem {
   Operator delassus;           ///< W and b; carries u under the impulses applied so far
   std::vector<Law> laws;       ///< the table of laws
   List<std::uint32_t> law_of;  ///< one per contact: its entry in the table
+  /// Those of the contacts that are bonds.
+  [[no_unique_address]] std::conditional_t<BondingLaw<Law, Space>, detail::ProblemBonds<Scalar>,
+                                           detail::NoProblemBonds>
+      bonds;
 
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.
@@ -39,6 +62,16 @@ struct ContactProblem {
 };
 
 namespace detail {
+
+/// Sets the impulses to those of bodies that no contact moves: zero, and h T of bonds.
+template <class Operator, class Law>
+void clear_impulses(const ContactProblem<Operator, Law>& problem,
+                    std::span<typename Operator::Vector> impulses) {
+  std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
+  if constexpr (BondingLaw<Law, typename Operator::Space>)
+    for (std::size_t c = 0; c < problem.bonds.pulls.size(); ++c)
+      impulses[c][0] = problem.bonds.pulls[c];
+}
 
 /// Leaves the operator with the velocities of these impulses alone. Velocities that are made of
 /// many small changes carry the rounding of each; these do not.

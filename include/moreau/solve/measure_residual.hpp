@@ -90,6 +90,33 @@ struct ResidualSums {
     if (std::isfinite(map) && std::isfinite(norm)) return;
     report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
   }
+  /// Makes the sums relative to the loads of bonds, not to their strength. Impulses as large as the strength have rounding
+  /// that no solution can go below: velocities of 32 epsilon times these impulses, and of the rounding of b, count as zero.
+  /// @param scale makes velocities of impulses [1/kg]
+  void relate_to_loads(const ContactProblem<Operator, Law>& problem,
+                       std::span<const typename Operator::Vector> impulses,
+                       double scale) requires(BondingLaw<Law, typename Operator::Space>) {
+    const auto& pulls = problem.bonds.pulls;
+    if (pulls.empty()) return;
+    double pushes = 0;
+    norm = 0, approach = problem.bonds.velocity2;
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      typename Operator::Vector load = impulses[c];
+      pushes += double(load.squaredNorm());
+      load[0] -= pulls[c];
+      norm += double(load.squaredNorm());
+      if (pulls[c] != 0) continue;
+      const double free = std::min(0.0, double(problem.delassus.free_velocity(c)[0]));
+      approach += free * free;
+    }
+    norm *= scale * scale;
+    const double rounding =
+        32 * scale * double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+    const double least = rounding * rounding * pushes + problem.bonds.rounding2;
+    map -= least < map ? least : map;  // stays NaN
+    closing -= least < closing ? least : closing;
+    approach += least;
+  }
   /// Makes the sums those of all processes.
   void add_up(SharedBodies& shared) {
     double sums[] = {map, norm, approach, closing, dissipation};
@@ -154,6 +181,8 @@ void measure_residual(const ContactProblem<Operator, Law>& problem,
   Sums sums = detail::sum_of<Sums>(team, problem.size(), [&](Sums& sum, std::size_t c) {
     sum.add(problem, c, impulses[c], scale);
   });
+  if constexpr (BondingLaw<Law, typename Operator::Space>)
+    sums.relate_to_loads(problem, impulses, scale);
   if (shared) sums.add_up(*shared);
   sums.write(report);
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "moreau/contact/contact.hpp"
@@ -35,10 +36,11 @@ struct Bond {
   double dissipated = 0;           ///< energy that it has dissipated [J]
   double elastic = 0;              ///< energy of its springs; 0 without [J]
   Scalar strength_left = 1;        ///< s: share of its strength that is left [-]
+  bool is_new = true;              ///< no step has ended since it was made
 
   auto serialized_members() {  ///< see core/serialize.hpp
     return std::tie(a, b, anchor_a, anchor_b, frame_a, frame_b, cells, slip, bend, dissipated,
-                    elastic, strength_left);
+                    elastic, strength_left, is_new);
   }
 };
 
@@ -69,6 +71,7 @@ struct BondPlace {
   typename S::Vector middle_b;  ///< from the centre of b, or its image, to it [m]
   typename S::Vector stretch;   ///< from the point of a to that of b [m]
   typename S::Angular turn;     ///< rotation vector from the frame of a to that of b [rad]
+  typename S::Scalar rounding;  ///< of the stretch [m]
 };
 
 /// The rotation vector of the rotation that takes the orthonormal columns of `from` to those of `to` [rad].
@@ -97,6 +100,11 @@ BondPlace<S> place_of(const Bond<S>& bond, const Bodies<S>& bodies,
   place.stretch = between + at_b - at_a;
   place.turn = rotation_between<S>(of_a, of_b);
   place.frame = S::exp(place.turn / 2).toRotationMatrix() * of_a;
+  // The difference of two near positions is exact, but not in a periodic cell.
+  const bool is_shifted = !shift.isZero(0);
+  place.rounding = std::numeric_limits<typename S::Scalar>::epsilon() *
+                   (at_a.norm() + at_b.norm() +
+                    (is_shifted ? b.position.norm() + shift.norm() : typename S::Scalar(0)));
   place.middle_a = at_a + place.stretch / 2;
   place.middle_b = at_b - place.stretch / 2;
   return place;

@@ -46,8 +46,11 @@ struct StepReport {
   std::size_t bonds = 0;  ///< bonds that are left after the step
   std::size_t broken_bonds = 0;  ///< bonds that broke in the step
   /// Root mean square of the forces of the bonds, couples included, over that of the pushes against their strength [-]; 0
-  /// without bonds. solve.residual is relative to the strength: the forces are known to about solve.residual over this number.
+  /// without bonds.
   double bond_load = 0;
+  /// To about which part of themselves the forces of the bonds are known [-]: solve.residual, or 32 epsilon / bond_load if that
+  /// is larger, as impulses have the rounding of the strength.
+  double bond_error = 0;
   /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
   /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic
   /// energies are of velocities relative to the cell (world/cell_control.hpp).

@@ -143,15 +143,18 @@ struct OverlapScene {
         "OverlapCorrectionOptions::max_shift; the bodies stay inside one another for many steps",
         {double(report.correction.limited)});
   check_solve(found, report.solve);
-  const double load = report.bond_load, known = 1e-3;
-  if (load > 0 && report.solve.residual > known * load)
+  if (report.bond_error > 1e-3 && report.solve.residual < report.bond_error)
     found.say(
-        "bonds bear % of their strength on average, and the residual % is relative to the "
-        "strength: "
-        "their forces are known only to about % of themselves, and structures of many bonds bend "
+        "bonds bear % of their strength on average: their forces have the rounding of the strength "
+        "and are known only to about % of themselves. Use double precision, or a smaller strength",
+        {report.bond_load, report.bond_error});
+  else if (report.bond_error > 1e-3)
+    found.say(
+        "the forces of bonds are known only to about the residual %: structures of many bonds bend "
         "and break at wrong loads. Use a smaller tolerance and more sweeps: "
-        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = %, .max_sweeps = 20000}))",
-        {load, report.solve.residual, report.solve.residual / load, round_down(1e-4 * load)});
+        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = 1e-6, .max_sweeps = "
+        "20000}))",
+        {report.bond_error});
   const double compliance = report.relative_compliance, residual = report.solve.residual;
   if (residual > 0.1 * compliance && compliance > 0)
     found.say(

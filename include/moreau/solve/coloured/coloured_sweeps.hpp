@@ -62,7 +62,9 @@ class ColouredSweeps {
   void measure_residual(const ContactProblem<Operator, Law>& problem,
                         std::span<const Impulse> impulses, SolveReport& report, const Team& team) {
     if constexpr (MapsLanes<Law, S>) {
-      auto sums = kernel_.residual(mean_diagonal(problem.delassus, shared_), team);
+      const double scale = mean_diagonal(problem.delassus, shared_);
+      auto sums = kernel_.residual(scale, team);
+      if constexpr (BondingLaw<Law, S>) sums.relate_to_loads(problem, impulses, scale);
       if (shared_) sums.add_up(*shared_);
       sums.write(report);
     } else {

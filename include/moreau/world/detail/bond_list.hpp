@@ -3,7 +3,8 @@
 // detection has found for its pair:
 //
 //   1. place() writes the bonds to the list of contacts
-//   2. start() gives their contacts the variant with a bond, and offset() adds to b what they are stretched
+//   2. start() gives their contacts the variant with a bond, offset() adds to b what they are stretched and the chords of
+//      the arcs of their points, and refer() tells the solver that p is measured from the strength
 //   3. find_strengths(), soften() let the strength of those that yield fall, and the problem is solved again until it stays
 //   4. yield() and end_step() let them yield and break
 //
@@ -13,8 +14,15 @@
 //
 //     u + (d, R t) / h + c r,
 //
-// whose normal entry is the velocity of the points in the next detection. A rigid bond has rate (d, R t) / h with a
-// rate of a fifth, which corrects what the solver and the overlap correction leave.
+// whose normal entry is the velocity of the points in the next detection: to u belongs the chord E(w_b) X_b - E(w_a) X_a of
+// the arcs on which the points of the bodies move over the step (chord_velocities.hpp). A rigid bond has rate (d, R t) / h
+// with a rate of a fifth, which corrects what the solver and the overlap correction leave. Of d and t it corrects what
+// exceeds the rounding of the positions: in a closed row of bonds no motion corrects that, and the forces would grow from
+// sweep to sweep.
+//
+// The first detection comes after a part of a step, in which the bodies move along tangents. Bodies that turn together
+// then have a stretch of second order in the step, which is the memory of a new bond: to correct it would add to the
+// force of the bond what does not vanish with the step.
 #pragma once
 
 #include <algorithm>
@@ -33,13 +41,16 @@
 #include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/bond.hpp"
+#include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -49,7 +60,7 @@ namespace moreau::detail {
 struct NoBonds {
   static void start(const auto&) {}
   static void hide(const auto&, const auto& use) { use(); }
-  static void offset(const auto&, const auto&, const auto&) {}
+  static void offset(const auto&, auto&, const auto&, const auto&) {}
 };
 
 /// The bonds of a simulation, sorted by their bodies, and the list of breakages.
@@ -120,7 +131,9 @@ class BondList {
   }
   /// Replaces the contacts of bonded pairs by those of the bonds.
   /// @param contacts sorted, as detected
-  void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, ContactsOf<Law, S>& contacts) {
+  /// @param before   the part of the step before the detection [s]
+  void place(const Bodies<S>& bodies, const PeriodicCell<S>& cell, ContactsOf<Law, S>& contacts,
+             Scalar before) {
     contact_of_.assign(bonds_.size(), none);
     places_.resize(bonds_.size());
     softening_.assign(bonds_.size(), {});
@@ -129,7 +142,7 @@ class BondList {
     merged_.clear();
     std::size_t c = 0;
     for (std::size_t i = 0; i < bonds_.size(); ++i) {
-      const Bond<S>& bond = bonds_[i];
+      Bond<S>& bond = bonds_[i];
       const std::pair pair(bond.a.value, bond.b.value);
       for (; c < contacts.size() && contacts.keys[c].bodies() < pair; ++c) copy(contacts, c);
       while (c < contacts.size() && contacts.keys[c].bodies() == pair) ++c;
@@ -137,6 +150,8 @@ class BondList {
       contact_of_[i] = merged_.size();
       const Vector shift = cell.shift(bond.cells);
       places_[i] = place_of(bond, bodies, shift);
+      if (bond.is_new)
+        bond.slip = transposed_product(places_[i].frame, stretch_on_arcs(i, bodies, before));
       add_contact(pair.first, pair.second, places_[i]);
     }
     for (; c < contacts.size(); ++c) copy(contacts, c);
@@ -167,22 +182,47 @@ class BondList {
           bonds_[i].strength_left * materials.laws()[contacts.points[c].law].strength().tension;
     });
   }
-  /// Adds to b what bonds are stretched.
-  /// @param pulls h T of each contact [N s]
-  /// @param step  h [s]
-  void offset(Operator& op, std::span<const Scalar> pulls, Scalar step) {
+  /// Adds to b what bonds are stretched, and the chords of their points.
+  /// @param context StepContext of the step
+  /// @param pulls   h T of each contact [N s]
+  /// @param before  velocities before the step, in the configuration of the contacts [m/s, rad/s]
+  void offset(const auto& context, Operator& op, std::span<const Scalar> pulls,
+              std::span<const typename S::Twist> before) {
     for_each([&](std::size_t i, std::size_t c) {
       const BondPlace<S>& at = places_[i];
       const typename S::Inertia spin_frame = S::angular_frame(op.frame(c));
-      const Vector stretch = at.stretch - at.frame * bonds_[i].slip;
-      const typename S::Angular turn = at.turn - S::angular_frame(at.frame) * bonds_[i].bend;
+      Vector stretch = at.stretch - at.frame * bonds_[i].slip;
+      typename S::Angular turn = at.turn - S::angular_frame(at.frame) * bonds_[i].bend;
+      if constexpr (!is_compliant) {
+        stretch = beyond(stretch, at.rounding);
+        turn = beyond(turn, rounding_of_turn);
+      }
       Row row;
       linear<S>(row) = op.frame(c).transpose() * stretch;
       angular<S>(row) = op.radius(c) * (spin_frame.transpose() * turn);
-      row *= (is_compliant ? 1 : rate) / step;
+      row *= (is_compliant ? 1 : rate) / context.step;
       drifts_[i] = is_compliant ? Row(Row::Zero()) : row;
+      linear<S>(row) += transposed_product(op.frame(c), chord_of(c, context, before));
       if constexpr (is_compliant) row[0] -= op.compliance(c)[0] * pulls[c];
       op.offset(c, row);
+    });
+  }
+  /// Tells the solver from which impulses those of bonds are measured.
+  /// @param pulls       impulses of the attraction [N s]
+  /// @param velocity_of function: contact -> its velocity if no bond bears anything [m/s]
+  void refer(const Operator& op, std::span<const Scalar> pulls, Scalar step,
+             const auto& velocity_of, ProblemBonds<Scalar>& bonds) const {
+    bonds.pulls.clear();
+    bonds.velocity2 = bonds.rounding2 = 0;
+    if (bonds_.empty()) return;
+    bonds.pulls.assign(pulls.begin(), pulls.end());
+    for_each([&](std::size_t i, std::size_t c) {
+      bonds.velocity2 += double(Row(velocity_of(c) + drifts_[i]).squaredNorm());
+      if constexpr (!is_compliant) {
+        const double stretch = double(rate / step * places_[i].rounding),
+                     turn = double(rate / step * rounding_of_turn * op.radius(c));
+        bonds.rounding2 += stretch * stretch + turn * turn;
+      }
     });
   }
 
@@ -200,7 +240,7 @@ class BondList {
       const Law& law = materials.laws()[contacts.points[c].law];
       const Scalar full = step * law.strength().tension, now = pulls[c] / full;
       Softening& last = softening_[i];
-      const Scalar found = strength_in_step(i, law, yielding(op, i, c), impulses[c], step);
+      const Scalar found = strength_in_step(i, law, op, c, impulses[c], step);
       const Scalar slope =
           last.found < 0 || now == last.now ? Scalar(0) : (found - last.found) / (now - last.now);
       const Scalar next = now + (found - now) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
@@ -235,6 +275,11 @@ class BondList {
     if (shared) shared->sum(sums);
     return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
   }
+  /// StepReport::bond_error.
+  static double error(double load, double residual) {
+    const double rounding = 32 * double(std::numeric_limits<Scalar>::epsilon());
+    return load > 0 ? std::max(residual, rounding / load) : 0;
+  }
   /// Finds out how the bonds yield, which end_step() lets them do, and which of them break.
   /// @param op       with the velocities of the impulses
   /// @param impulses p of every contact [N s]
@@ -246,8 +291,9 @@ class BondList {
     for_each([&](std::size_t i, std::size_t c) {
       const Contact<S>& contact = contacts.points[c];
       const Law& law = materials.laws()[contact.law];
-      if (!law.yields(impulses[c])) return;
-      const Row w = yielding(op, i, c);
+      const Row p = pushes(law, impulses[c], step);
+      if (!law.yields(p)) return;
+      const Row w = yielding(law, op, i, c, p);
       Yield& yield = yields_[i];
       yield.loss = step * law.softening(w);
       broken_[i] = !(bonds_[i].strength_left > yield.loss);
@@ -266,6 +312,7 @@ class BondList {
                 StepReport& report) {
     for_each([&](std::size_t i, std::size_t c) {
       Bond<S>& bond = bonds_[i];
+      bond.is_new = false;
       bond.strength_left = broken_[i] ? Scalar(0) : Scalar(bond.strength_left - yields_[i].loss);
       bond.slip += yields_[i].slip;
       bond.bend += yields_[i].bend;
@@ -303,6 +350,7 @@ class BondList {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   static constexpr bool is_compliant = CompliantLaw<Law, S>;
   static constexpr Scalar rate = Scalar(0.2);
+  static constexpr Scalar rounding_of_turn = std::numeric_limits<Scalar>::epsilon();  // [rad]
 
   /// A strength in the step that the problem was solved with, that of find_strengths() for its solution; < 0: none.
   struct Softening {
@@ -315,19 +363,48 @@ class BondList {
     Vector slip = Vector::Zero();                   // [m]
     typename S::Angular bend = S::Angular::Zero();  // [rad]
   };
-  /// @param w velocity of the bond [m/s]
-  /// @param p its impulse [N s]
-  Scalar strength_in_step(std::size_t i, const Law& law, const Row& w, const Row& p,
-                          Scalar step) const {
+  /// The velocity at which a bond yields: that of its bodies, less that of its springs, without the correction of a
+  /// rigid bond, which counts the motion up to detection as an error. Where the bond does not yield, the correction goes on.
+  Row yielding(const Law& law, const Operator& op, std::size_t i, std::size_t c,
+               const Row& p) const {
+    return law.yielding(p, Row(op.velocity(c) - drifts_[i]));
+  }
+  /// The impulse of a bond, without what is rounding beside its strength.
+  static Row pushes(const Law& law, Row p, Scalar step) {
+    const Scalar small = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    if (p[0] <= small * step * law.strength().tension) p[0] = 0;
+    return p;
+  }
+  Scalar strength_in_step(std::size_t i, const Law& law, const Operator& op, std::size_t c,
+                          const Row& impulse, Scalar step) const {
     const Scalar s = bonds_[i].strength_left;
+    const Row p = pushes(law, impulse, step);
     if (!law.yields(p)) return s;
-    const Scalar x = step * law.softening(w);
+    const Scalar x = step * law.softening(yielding(law, op, i, c, p));
     return !std::isfinite(x) ? s : x < s ? s - x / 2 : s * s / (2 * x);
   }
-  /// The velocity at which a bond yields: that of its bodies, less that of its springs, without the correction of a
-  /// rigid bond, which counts the motion up to detection as an error.
-  Row yielding(const Operator& op, std::size_t i, std::size_t c) const {
-    return op.velocity(c) - drifts_[i];
+  /// The part of a vector that is longer than its rounding.
+  static auto beyond(const auto& x, Scalar rounding) {
+    const Scalar length = x.norm();
+    return std::decay_t<decltype(x)>(x * (length > rounding ? 1 - rounding / length : Scalar(0)));
+  }
+  /// The chord of the arcs on which the points of a bond move over the step, b minus a [m/s].
+  static Vector chord_of(std::size_t c, const auto& context,
+                         std::span<const typename S::Twist> before) {
+    const Contact<S>& contact = context.contacts.points[c];
+    return chord_excess<S>(angular<S>(before[contact.b]), contact.lever_b, context.step) -
+           chord_excess<S>(angular<S>(before[contact.a]), contact.lever_a, context.step);
+  }
+  /// The stretch of a bond whose bodies have moved along tangents and turned for a while, of which its points at the
+  /// beginning had the same velocity [m].
+  Vector stretch_on_arcs(std::size_t i, const Bodies<S>& bodies, Scalar time) const {
+    const auto excess = [&](BodyId body, const Vector& lever) {
+      const typename S::Angular spin = angular<S>(bodies.velocity[body.index()]);
+      const Vector back = time * (chord_excess<S>(spin, lever, -time) + S::spin(spin, lever));
+      return Vector(time * chord_excess<S>(spin, Vector(lever - back), time));
+    };
+    if (!(time > 0)) return Vector::Zero();
+    return excess(bonds_[i].b, places_[i].middle_b) - excess(bonds_[i].a, places_[i].middle_a);
   }
   /// Calls use(index of the bond, index of its contact).
   void for_each(const auto& use) const {

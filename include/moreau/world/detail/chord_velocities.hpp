@@ -48,8 +48,7 @@
 // in this frame but for its motion s relative to it. If that core is a point, as of a ball or an end, the normal turns
 // about the axis, and the curvature is h/2 (s . (e x n))^2 / d. The edge of a face lies across the axis and has none.
 //
-// A bond is fixed to a point of each body. Its X_a and X_b are its levers, nothing rolls, and its frame turns with both
-// bodies: the displacement of the points over the step is all.
+// A bond is fixed to a point of each body, and has its own chords, of free bodies as well (bond_list.hpp).
 #pragma once
 
 #include <algorithm>
@@ -111,12 +110,8 @@ class ChordVelocities {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const ContactKey& key = contacts.keys[c];
-      if (!is_marked(assembly, contact, key)) continue;
+      if (is_bond(key) || !is_marked(assembly, contact, key)) continue;
       const auto* cylinder = cylinder_of(assembly, contact.b);
-      if (is_bond(key)) {
-        velocities_[c] = between_points(assembly, contact, step);
-        continue;
-      }
       velocities_[c] = cylinder ? along_cylinder(assembly, *cylinder, contact, key, step)
                                 : along_wall(assembly, contact, key, step);
     }
@@ -212,14 +207,6 @@ class ChordVelocities {
                    bodies.pose[body].rotation * shape.parts()[part].pose.rotation);
     else
       return along(shape, bodies.pose[body].rotation);
-  }
-  /// Of a bond.
-  static Vector between_points(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
-                               Scalar step) {
-    const auto excess = [&](std::uint32_t body, const Vector& lever) {
-      return chord_excess<S>(angular<S>(assembly.bodies().velocity[body]), lever, step);
-    };
-    return excess(contact.b, contact.lever_b) - excess(contact.a, contact.lever_a);
   }
   /// Of a half-space, a mesh wall or a grain whose rotation is prescribed, below: the wall.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,

@@ -223,7 +223,7 @@ class ImpulseDynamics {
       found = start(context, context.previous);
     }
     if constexpr (bonding || !compliant) attraction_.add_to(impulses);
-    bonds_.offset(problem_.delassus, attraction_.pulls(), context.step);
+    bonds_.offset(context, problem_.delassus, attraction_.pulls(), std::span<const Twist>(before_));
     return found;
   }
   /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of the springs of
@@ -280,6 +280,7 @@ class ImpulseDynamics {
       springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
     if constexpr (bonding) {
       report.bond_load = bonds_.load(impulses, attraction_.pulls(), shared_.get());
+      report.bond_error = bonds_.error(report.bond_load, report.solve.residual);
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
     }
     laws_.choose_variants(problem_, context.materials, context.contacts,
@@ -318,9 +319,27 @@ class ImpulseDynamics {
     }
     return row;
   }
+  /// The relative velocity of the contact of a bond if no bond bears anything, without its offset, a row of the operator
+  /// [m/s].
+  Row unloaded(const Context& context, std::size_t c) const {
+    const Contact<S>& contact = context.contacts.points[c];
+    const Twist &a = unattracted_[contact.a], &b = unattracted_[contact.b];
+    Vector change = BodyDelassus<S>::relative_velocity(contact, a, b);
+    if (context.deforms()) change += cell_.jumps()[c];
+    Row row;
+    linear<S>(row) = problem_.delassus.turned(c, change);
+    angular<S>(row) =
+        problem_.delassus.radius(c) *
+        (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(Twist(b - a)));
+    return row;
+  }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
     if (cell_.moves(context)) cell_.join(context, attraction_.pulls(), problem_.delassus);
+    if constexpr (bonding)
+      bonds_.refer(
+          problem_.delassus, attraction_.pulls(), context.step,
+          [&](std::size_t c) { return unloaded(context, c); }, problem_.bonds);
     report.solve = solver_.solve(problem_, std::span<Row>(context.contacts.impulses), workspace_);
   }
 

@@ -18,6 +18,7 @@ struct IslandEnergy {
       std::max(1e-12, 8 * double(std::numeric_limits<Scalar>::epsilon()));
 
   bool hits = false;                   ///< some contact hits: E counts, not G
+  bool bonded = false;                 ///< has a bond: nothing counts
   double gain = 0, rest_gain = 0;      // G(r), G(r_0)
   double forced = 0, rest_forced = 0;  // r . a / 2, r_0 . a / 2
   // Sums of the absolute values of the terms of E and G: a multiple bounds their rounding.
@@ -28,10 +29,14 @@ struct IslandEnergy {
   double slope = 0, curvature = 0;
 
   /// More than the rounding of its terms.
-  bool makes_energy() const { return gain - (hits ? forced : 0) > rounding * gain_terms; }
+  bool makes_energy() const {
+    return !bonded && gain - (hits ? forced : 0) > rounding * gain_terms;
+  }
   /// More than what does not count.
-  bool counts() const { return gain > rounding * gain_terms + least_gain; }
-  bool rest_counts() const { return rest_gain > rounding * rest_terms + least_rest_gain; }
+  bool counts() const { return !bonded && gain > rounding * gain_terms + least_gain; }
+  bool rest_counts() const {
+    return !bonded && rest_gain > rounding * rest_terms + least_rest_gain;
+  }
   /// The largest s <= 1 with G(s r_0) = s r_0 . u_f + s^2 r_0 . W r_0 / 2 <= 0, where u_f = u_0 - W r_0; 1 if G(r_0)
   /// does not count.
   MOREAU_INLINED Scalar rest_share() const {

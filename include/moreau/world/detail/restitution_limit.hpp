@@ -55,6 +55,7 @@
 // further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
 // thousandth of the largest, the step is as solved as it was. Problems without any restitution are treated in the same way.
+// An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
 //
@@ -377,6 +378,9 @@ class RestitutionLimit {
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row change = bounce.impulse - rest.impulse;
       island.hits = island.hits || bounce.hits;
+      if constexpr (BondingLaw<Law, S>)
+        island.bonded =
+            island.bonded || (!problem.bonds.pulls.empty() && problem.bonds.pulls[c] != 0);
       island.gain += bounce.gain;
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +

@@ -98,7 +98,8 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   // A contact that is stored then serves ten steps or more.
   lengths_of_step.slow = lengths_of_step.carry / (10 * step);
   detector_.detect(lengths_of_step, bodies(), contacts_, found);
-  if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), found);
+  if constexpr (bonding)
+    dynamics_.bonds().place(bodies(), cell(), found, step * (1 - dynamics_.theta()));
   assign_laws(assembly_.bodies(), materials_, found, team_);
   assembly_.require_no_deep_overlap(found, "Simulation::step");
   [[maybe_unused]] std::size_t pairs = 0;
@@ -124,7 +125,8 @@ MOREAU_INLINED inline bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::d
   dynamics_.undo_shifts(assembly_.bodies());
   detector_.use_whole_margin();
   detector_.detect(lengths(), bodies(), previous_, contacts_);
-  if constexpr (bonding) dynamics_.bonds().place(bodies(), cell(), contacts_);
+  if constexpr (bonding)
+    dynamics_.bonds().place(bodies(), cell(), contacts_, context.step * (1 - dynamics_.theta()));
   assign_laws(assembly_.bodies(), materials_, contacts_, team_);
   report.ms_collide += clock.lap();
   count_contacts(report);

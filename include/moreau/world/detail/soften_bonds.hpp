@@ -17,8 +17,8 @@
 namespace moreau::detail {
 
 /// Solves the contact problem again while the strength of bonds that yield falls within the step: until the impulses
-/// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses, as its
-/// residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
+/// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses on the bodies,
+/// as its residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
 /// most BondList::max_solutions solutions, that of the caller included, is not compared any more: the report then says
 /// that the problem is not solved (`capped`).
 /// @param op       operator of the problem
@@ -48,7 +48,11 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
     double sums[] = {0, 0};
     sums[0] = bonds.find_strengths(context.materials, op, context.contacts, impulses,
                                    attraction.pulls(), context.step);
-    for (const auto& impulse : impulses) sums[1] += double(impulse.squaredNorm());
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      auto load = impulses[c];
+      load[0] -= attraction.pulls()[c];
+      sums[1] += double(load.squaredNorm());
+    }
     if (shared) shared->sum(sums);
     if (sums[0] <= enough * enough * sums[1]) return;
     bonds.soften(change);
