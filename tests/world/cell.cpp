@@ -257,6 +257,11 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
   control.mass(0, 1) = -1;
   refuses([&] { one.control_cell(control); },
           "Simulation::control_cell: mass = (0, -1, 0, 0) must be finite and >= 0");
+  control.mass.setZero();
+  control.stress = unit;
+  refuses([&] { one.control_cell(control); },
+          "Simulation::control_cell: mass = (0, 0, 0, 0) must be > 0 for components that follow a "
+          "stress");
   World walled = world();
   walled.add_wall(Vector(1, 0), Vector(0, 0));
   CHECK_THROWS_AS(walled.set_cell(0.1 * unit), std::invalid_argument);

@@ -78,9 +78,10 @@ template <class S>
                                                              const typename S::Vector& lever,
                                                              typename S::Scalar step) {
   using T = typename S::Scalar;
-  const T angle = std::abs(step) * w.norm(), square = angle * angle, half = std::sin(angle / 2);
+  const T angle = std::abs(step) * w.norm(), square = angle * angle;
   // sin(x) / x - 1 and (1 - cos x) / x^2, for small x by their series
   const bool is_small = angle < T(1e-2);
+  const T half = is_small ? T(0) : std::sin(angle / 2);
   const T first = is_small ? -square / 6 * (1 - square / 20) : std::sin(angle) / angle - 1;
   const T second = is_small ? (1 - square / 12) / 2 : 2 * half * half / square;
   const typename S::Vector along = S::spin(w, lever);
