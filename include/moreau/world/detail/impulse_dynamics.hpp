@@ -321,7 +321,7 @@ class ImpulseDynamics {
   }
   /// The relative velocity of the contact of a bond if no bond bears anything, without its offset, a row of the operator
   /// [m/s].
-  Row unloaded(const Context& context, std::size_t c) const {
+  Row unloaded(const Context& context, std::size_t c) const requires(BondingLaw<Law, S>) {
     const Contact<S>& contact = context.contacts.points[c];
     const Twist &a = unattracted_[contact.a], &b = unattracted_[contact.b];
     Vector change = BodyDelassus<S>::relative_velocity(contact, a, b);
