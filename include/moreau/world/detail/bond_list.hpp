@@ -404,7 +404,9 @@ class BondList {
       return Vector(time * chord_excess<S>(spin, Vector(lever - back), time));
     };
     if (!(time > 0)) return Vector::Zero();
-    return excess(bonds_[i].b, places_[i].middle_b) - excess(bonds_[i].a, places_[i].middle_a);
+    const BondPlace<S>& at = places_[i];
+    return excess(bonds_[i].b, at.middle_b + at.stretch / 2) -
+           excess(bonds_[i].a, at.middle_a - at.stretch / 2);
   }
   /// Calls use(index of the bond, index of its contact).
   void for_each(const auto& use) const {
