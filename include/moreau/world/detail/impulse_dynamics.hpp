@@ -321,16 +321,18 @@ class ImpulseDynamics {
   }
   /// The relative velocity of the contact of a bond if no bond bears anything, without its offset, a row of the operator
   /// [m/s].
-  Row unloaded(const Context& context, std::size_t c) const requires(BondingLaw<Law, S>) {
+  Row unloaded(const Context& context, std::size_t c) const {
     const Contact<S>& contact = context.contacts.points[c];
     const Twist &a = unattracted_[contact.a], &b = unattracted_[contact.b];
     Vector change = BodyDelassus<S>::relative_velocity(contact, a, b);
     if (context.deforms()) change += cell_.jumps()[c];
+    const Vector along = problem_.delassus.turned(c, change);
     Row row;
-    linear<S>(row) = problem_.delassus.turned(c, change);
-    angular<S>(row) =
-        problem_.delassus.radius(c) *
-        (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(Twist(b - a)));
+    for (int k = 0; k < S::dim; ++k) row[k] = along[k];
+    if constexpr (RollingLaw<Law, S>)
+      angular<S>(row) =
+          problem_.delassus.radius(c) *
+          (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(Twist(b - a)));
     return row;
   }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
