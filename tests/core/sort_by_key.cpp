@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <doctest/doctest.h>
 #include <random>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -120,6 +121,14 @@ TEST_CASE("a list holds its elements as a std::vector does") {
   CHECK(matrices == moreau::List<Matrix>(matrices));
   CHECK(matrices[39](3, 3) == 39);
   CHECK(reinterpret_cast<std::uintptr_t>(matrices.data()) % alignof(Matrix) == 0);
+}
+
+TEST_CASE("a list refuses an index beyond its end, and is read backwards") {
+  moreau::List<int> list{1, 2, 3};
+  list.at(1) = 5;
+  CHECK(list.at(1) == 5);
+  CHECK_THROWS_AS(list.at(3), std::out_of_range);
+  CHECK(std::vector<int>(list.rbegin(), list.rend()) == std::vector<int>{3, 5, 1});
 }
 
 TEST_CASE("short and long lists are sorted") {

@@ -81,6 +81,14 @@ class List {
   bool empty() const { return size_ == 0; }
   T& operator[](std::size_t i) { return data_[i]; }
   const T& operator[](std::size_t i) const { return data_[i]; }
+  /// @throws std::out_of_range unless i < size()
+  const T& at(std::size_t i) const {
+    if (i >= size_) throw std::out_of_range("List::at: the index must be below size()");
+    return data_[i];
+  }
+  T& at(std::size_t i) { return const_cast<T&>(std::as_const(*this).at(i)); }
+  auto rbegin() const { return std::make_reverse_iterator(end()); }
+  auto rend() const { return std::make_reverse_iterator(begin()); }
   T& front() { return data_[0]; }
   const T& front() const { return data_[0]; }
   T& back() { return data_[size_ - 1]; }
