@@ -84,15 +84,15 @@ do for [kind in "plane axisymmetric"] {
 }
 if (has("dice")) {
   set output folder . "/dice.png"
-  set title "Dice: solid fraction, loosest (open), poured (crosses) and densest (filled)"
-  set xlabel "faces"; set ylabel "solid fraction"; set xrange [3:21]; set yrange [0.4:0.8]
+  set title "Dice: solid fraction, loosest and sediment (open), poured (crosses) and densest (filled)"
+  set xlabel "faces"; set ylabel "solid fraction"; set xrange [3:21]; set yrange [0.4:0.75]
   of(column, low) = sprintf("< awk -F, -v low=%d 'NR > 1 && ($2 < 0.3) == low && $%d != \"nan\" {print $1 \",\" $%d}' '%s'", low, column, column, file("dice"))
   plot file("dice") using 1:4 skip 1 with points pt 4 ps 2 lc rgb other title "Baker and Kudrolli, loosest", \
        file("dice") using 1:6 skip 1 with points pt 5 ps 2 lc rgb other title "densest", \
-       of(3, 1) using ($1 - 0.15):2 with points pt 6 lc rgb own title "moreau, friction 0.2", \
-       of(5, 1) using ($1 - 0.15):2 with points pt 7 lc rgb own notitle, \
-       of(7, 1) using ($1 - 0.15):2 with points pt 2 lc rgb own notitle, \
-       of(3, 0) using ($1 + 0.15):2 with points pt 8 lc rgb last title "friction 0.5", \
-       of(5, 0) using ($1 + 0.15):2 with points pt 9 lc rgb last notitle, \
-       of(7, 0) using ($1 + 0.15):2 with points pt 2 lc rgb last notitle
+       of(3, 1) using ($1 - 0.15):2 with points pt 6 ps 1.5 lc rgb own title "moreau, friction 0.2", \
+       of(5, 1) using ($1 - 0.15):2 with points pt 7 ps 1.5 lc rgb own notitle, \
+       of(7, 1) using ($1 - 0.15):2 with points pt 2 ps 1.5 lc rgb own notitle, \
+       of(3, 0) using ($1 + 0.15):2 with points pt 8 ps 1.5 lc rgb last title "moreau, friction 0.5", \
+       of(5, 0) using ($1 + 0.15):2 with points pt 9 ps 1.5 lc rgb last notitle, \
+       of(7, 0) using ($1 + 0.15):2 with points pt 2 ps 1.5 lc rgb last notitle
 }
