@@ -32,6 +32,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -162,7 +163,7 @@ class EnergyBalance {
   EnergyTerms terms_;
   std::vector<Vector> positions_;
   std::vector<typename S::Angular> spins_;
-  std::vector<BodyId> ids_;
+  List<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
 };
 
