@@ -25,7 +25,7 @@ std::vector<Experiment> all_experiments() {
       {"columns", "collapse of columns, plane and axisymmetric", "Lube et al. 2004, 2005", columns,
        3600, 25},
       {"heap", "heap of spheres by discharge between plates", "Zhou et al. 2002", heap, 45000, 10},
-      {"dice", "regular polyhedra poured and shaken", "Baker & Kudrolli 2010", dice, 14400, 15},
+      {"dice", "regular polyhedra poured and shaken", "Baker & Kudrolli 2010", dice, 3600, 15},
       {"squeeze", "control of impact: the same bed with rigid contacts and with springs",
        "Dosta et al. 2024", squeeze, 3600, 10},
       {"impact", "a steel ball falls into beds of glass balls", "Dosta et al. 2024", impact, 7000,
