@@ -129,6 +129,8 @@ TEST_CASE("a list refuses an index beyond its end, and is read backwards") {
   CHECK(list.at(1) == 5);
   CHECK_THROWS_AS(list.at(3), std::out_of_range);
   CHECK(std::vector<int>(list.rbegin(), list.rend()) == std::vector<int>{3, 5, 1});
+  CHECK(list == std::vector<int>{1, 5, 3});
+  CHECK_FALSE(std::vector<int>{1, 5} == list);
 }
 
 TEST_CASE("short and long lists are sorted") {

@@ -9,7 +9,7 @@ file(name) = sprintf("%s/%s.csv", folder, name)
 own = "#0B6E99"; other = "#B5482A"; third = "#7A7A7A"; last = "#2E8540"
 
 if (has("drum")) {
-  set output folder . "/drum.png"
+  set output folder . "/drum_count.png"
   set title "Drum: M1 balls with x < 0 and z < 0. 30,000 balls of M1 and 8,000 of M2, step 1 ms"
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/drum_zone2_M1.csv" using 1:2 skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \

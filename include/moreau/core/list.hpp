@@ -34,12 +34,13 @@ MOREAU_COLD inline void* moved_memory(void* old, std::size_t used, std::size_t c
 }  // namespace detail
 
 /// A std::vector of elements that may be copied as bytes and need no destructor: numbers, fixed-size matrices, and
-/// structs of them. It has the functions of std::vector that the library uses, with the same meaning. Iterators
-/// are pointers.
+/// structs of them. It has the types and functions of std::vector that the library and its examples use, with the same
+/// meaning. Iterators are pointers.
 /// @tparam Alignment of the memory [byte]
 template <class T, std::size_t Alignment = alignof(T)>
 class List {
  public:
+  /// @cond vector
   using value_type = T;
   using size_type = std::size_t;
   using difference_type = std::ptrdiff_t;
@@ -104,7 +105,7 @@ class List {
     for (std::size_t i = size_; i < size; ++i) ::new (static_cast<void*>(data_ + i)) T();
     size_ = size;
   }
-  /// `value` may be an element of this list.
+  /// As above. `value` may be an element of this list.
   void resize(std::size_t size, const T& value) {
     if (size <= size_) {
       size_ = size;
@@ -187,6 +188,10 @@ class List {
   friend bool operator==(const List& a, const List& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
+  friend bool operator==(const List& a, const std::vector<T>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+  /// @endcond
 
  private:
   void move_to(std::size_t capacity) {

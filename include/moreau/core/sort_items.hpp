@@ -44,6 +44,7 @@ void sort_items(auto&& items, const auto& less) {
     first[at] = std::move(item);
   }
 }
+/// The same by operator<.
 void sort_items(auto&& items) {
   sort_items(items, std::less<>());
 }

@@ -37,7 +37,7 @@ struct RollingBlock {
   static constexpr int rows = S::dim + S::angular_dim;  ///< impulse, then couple / R
   using Vector = Eigen::Matrix<Scalar, rows, 1>;
   using Matrix = Eigen::Matrix<Scalar, rows, rows>;
-  using Cross = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;
+  using Cross = Eigen::Matrix<Scalar, S::dim, S::angular_dim>;  ///< of C
 
   LocalBlock<S> point;       ///< P [1/kg]
   Cross cross;               ///< C, D x A [1/kg]

@@ -104,9 +104,7 @@ class OverlapSweeps {
         wait();
       }
       if (me.is_apart) wait();
-      for (std::size_t s = me.slices.begin; s < me.slices.end; ++s)
-        for (std::size_t i = slices_[s].bodies.begin; i < slices_[s].bodies.end; ++i)
-          finish(i, shifts_[i]);
+      for (std::size_t s = me.slices.begin; s < me.slices.end; ++s) finish_all(slices_[s], finish);
     };
     team.run_timed(TimedWork::correction, inner_ == 0 ? 0 : contacts.size(), least_contacts, work);
   }
@@ -190,7 +188,7 @@ class OverlapSweeps {
 
   /// Bounds how far each body of a slice has moved a point at a distance up to `longest` from its centre.
   /// @param least of the bounds of bodies that move [m]
-  void find_reach(Slice& slice, Scalar longest, Scalar least) {
+  MOREAU_COMPILED_ONCE void find_reach(Slice& slice, Scalar longest, Scalar least) {
     slice.reach = 0;
     for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; ++i) {
       const Twist& shift = shifts_[i];
@@ -202,7 +200,8 @@ class OverlapSweeps {
     }
   }
   /// Takes the candidates that the shifts can close, as a batch.
-  void take(Member& me, std::span<const Contact<S>> contacts, std::span<const Scalar> depths) {
+  MOREAU_COMPILED_ONCE void take(Member& me, std::span<const Contact<S>> contacts,
+                                 std::span<const Scalar> depths) {
     Scalar reach = 0;
     for (const Slice& slice : slices_) reach = std::max(reach, slice.reach);
     const bool is_beyond = -2 * reach < me.listed;
@@ -244,7 +243,8 @@ class OverlapSweeps {
     slice.taken = taken - first;
   }
   /// Makes the rows of a batch.
-  void fill(Member& me, const auto& op, std::span<const Contact<S>> contacts, const auto& target) {
+  MOREAU_COMPILED_ONCE void fill(Member& me, const auto& op, std::span<const Contact<S>> contacts,
+                                 const auto& target) {
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       Range batch{me.rows, me.rows};
       for (std::size_t s = 0; s < slices_.size(); ++s) batch.end += counts_[s * parts_.size() + p];
@@ -307,8 +307,12 @@ class OverlapSweeps {
     row.b = moves_[contact.b] ? contact.b : still;
   }
 
+  MOREAU_COMPILED_ONCE void finish_all(const Slice& slice, const auto& finish) const {
+    for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; ++i) finish(i, shifts_[i]);
+  }
+
   /// Visits all rows of a part once.
-  void visit_all(const Part& part) {
+  MOREAU_COMPILED_ONCE void visit_all(const Part& part) {
     for (const Range& batch : std::span(part.batches).first(part.batch_count))
       visit(std::span(rows_).subspan(batch.begin, batch.end - batch.begin));
   }
