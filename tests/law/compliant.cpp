@@ -2,6 +2,7 @@
 // Compliant contacts against closed forms: compressed columns, a block on a slope, impacts, restart.
 #include "moreau/law/compliant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <doctest/doctest.h>
@@ -18,6 +19,7 @@
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/simulation.hpp"
 
@@ -172,6 +174,80 @@ TEST_CASE("compliant: a block on a slope moves by its load over the tangential s
   CHECK(moved[0] ==
         doctest::Approx(weight * std::sin(slope) / stiffness + tilt * half).epsilon(1e-3));
   CHECK(world.bodies().velocity[block.index()].norm() < 1e-9);
+}
+
+TEST_CASE_TEMPLATE("compliant: springs follow what the bodies move, also if the step changes",
+                   Shape, Polygon<double>, Polyhedron<double>) {
+  using S = SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1;
+  constexpr double half = 0.05, slope = 0.2, stiffness = 1e6, mass = 10;
+  for (const int pattern : {0, 1, 2}) {
+    CAPTURE(S::dim);
+    CAPTURE(pattern);
+    const auto length = [&](int k) {
+      if (pattern == 0) return 1e-3;
+      if (pattern == 1) return k % 2 ? 1e-3 : 1e-4;
+      return k % 97 == 0 ? 1e-2 : 3e-4;
+    };
+    Simulation<Shape, Spring> world(
+        2 * half, Materials<Spring>(1, Spring(Coulomb(5), stiffness, stiffness / 2)));
+    Pose<S> pose;
+    pose.position[up] = half;
+    const BodyId block = world.add_grain(world.add_shape(cuboid<Shape>(Vector::Constant(half))),
+                                         pose, mass / std::pow(2 * half, S::dim));
+    world.add_wall(Vector(Vector::Unit(up)), Vector(Vector::Zero()));
+    world.set_gravity(Vector(gravity * std::sin(slope) * Vector::UnitX() -
+                             gravity * std::cos(slope) * Vector::Unit(up)));
+    double dissipation = 0;
+    for (int k = 0; k < 9000; ++k) dissipation += world.step(length(k)).dissipation;
+    const double along = mass * gravity * std::sin(slope), down = mass * gravity * std::cos(slope);
+    const double tilt = along * half / (stiffness * half * half);
+    const Vector moved = world.pose(block).position - half * Vector::Unit(up);
+    const double expected = along / (stiffness / 2) + tilt * half;
+    CHECK(moved[0] == doctest::Approx(expected).epsilon(2e-3));
+    CHECK(moved[up] == doctest::Approx(-down / stiffness).epsilon(2e-3));
+    // The load falls by what the springs give way; half of its work is elastic energy at the end.
+    const double work = along * moved[0] - down * moved[up];
+    CHECK(dissipation == doctest::Approx(work / 2).epsilon(1e-2));
+  }
+}
+
+// On its tangential springs a flat block swings with the frequency omega. Rare long steps between short ones, which hardly damp,
+// make no energy.
+TEST_CASE_TEMPLATE("compliant: a change of the step makes no energy in the springs", Shape,
+                   Polygon<double>, Polyhedron<double>) {
+  using S = SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  constexpr int up = S::dim - 1;
+  constexpr double mass = 10, stiffness = 1e6, low = 1e4, speed = 1e-3;
+  Vector half = Vector::Constant(0.5);
+  half[up] = 0.01;
+  const double omega = std::sqrt(stiffness / mass);
+  for (const double turn : {1.0, 4.0, 16.0}) {
+    CAPTURE(S::dim);
+    CAPTURE(turn);
+    Simulation<Shape, Spring> world(0.1,
+                                    Materials<Spring>(1, Spring(Coulomb(100), low, stiffness)));
+    Pose<S> pose;
+    pose.position[up] = half[up] - mass / low;
+    const BodyId block = world.add_grain(world.add_shape(cuboid<Shape>(half)), pose,
+                                         mass / (std::pow(2., S::dim) * half.prod()));
+    world.add_wall(Vector(Vector::Unit(up)), Vector(Vector::Zero()));
+    world.set_gravity(Vector(-Vector::Unit(up)));
+    for (int k = 0; k < 500; ++k) world.step(1e-2);
+    const double x = world.pose(block).position[0];
+    world.set_velocity(block, Vector(speed * Vector::UnitX()));
+    double fastest = 0;
+    for (int cycle = 0; cycle < (turn > 1 ? 60 : 300); ++cycle)
+      for (int k = 0; k <= 20; ++k) {
+        world.step((k == 20 ? turn * (1 + 0.07 * (cycle * 37 % 11) / 11) : 0.05) / omega);
+        fastest = std::max(fastest, world.velocity(block).norm());
+      }
+    CHECK(fastest <= speed);
+    CHECK(world.velocity(block).norm() < 0.1 * speed);
+    if (turn <= 1) CHECK(std::abs(world.pose(block).position[0] - x) < 0.01 * speed / omega);
+  }
 }
 #endif
 

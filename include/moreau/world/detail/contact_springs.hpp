@@ -20,6 +20,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
+#include "moreau/world/detail/cell_jumps.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 #include "moreau/world/tolerances.hpp"
@@ -100,8 +101,11 @@ class ContactSprings {
   /// memory is the impulse, the springs of a pair keep their energy if their number changes, and so their
   /// stiffness: a force that stayed the same would make energy.
   /// @param impulses in: of the step before; out: s [N s]
-  void scale(const StepContext<S, Law>& context, std::span<Row> impulses) {
+  /// @param theta    of the integrator
+  void scale(const StepContext<S, Law>& context, std::span<Row> impulses, Scalar theta) {
     const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
+    now_ = ratio != 1 ? 1 - theta : Scalar(0);
+    then_ = now_ / ratio;
     last_step_ = context.step;
     for (Row& impulse : impulses) impulse *= ratio;
     const ContactsOf<Law, S>&now = context.contacts, &before = context.previous;
@@ -116,13 +120,18 @@ class ContactSprings {
       for (std::size_t c = first; c < last; ++c) impulses[c] *= kept;
     }
   }
-  /// Adds the velocity by which the springs relax, -c s, to b.
+  /// Adds to b the velocity by which the springs relax, -c s, and the motion that they have missed, d / h.
   /// @param impulses s, attraction included [N s]
-  void relax(const StepContext<S, Law>& context, std::span<const Row> impulses, Operator& op) {
+  /// @param jumps    of the cell, if it deforms; null: none
+  void relax(const StepContext<S, Law>& context, std::span<const Row> impulses,
+             const CellJumps<S>* jumps, Operator& op) {
+    if (last_.size() != context.bodies.size()) remember(context.bodies.velocity);
     relaxation_.resize(impulses.size());
     before_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       relaxation_[c] = relaxation_of(compliance_[c], impulses[c]);
+      if (now_ > 0 && !impulses[c].isZero(0))
+        relaxation_[c] += missed_motion(context, c, jumps, op);
       const Contact<S>& point = context.contacts.points[c];
       Row stretch = relaxation_[c];
       if (!context.materials.laws()[point.law].keeps_normal_impulse()) {
@@ -133,7 +142,11 @@ class ContactSprings {
       op.offset(c, relaxation_[c]);
     }
   }
-  const Row& relaxation(std::size_t c) const { return relaxation_[c]; }  ///< -c s, part of b [m/s]
+  /// Ends the step.
+  /// @param velocities of the bodies after the step [m/s, rad/s]
+  void remember(const List<typename S::Twist>& velocities) { last_ = velocities; }
+  /// -c s + d / h, part of b [m/s].
+  const Row& relaxation(std::size_t c) const { return relaxation_[c]; }
   /// Energy of the springs of a contact before the step, with the stiffness of this one [J].
   double energy_before(std::size_t c) const { return before_[c]; }
 
@@ -255,22 +268,56 @@ class ContactSprings {
   MOREAU_COMPILED_ONCE static Row relaxation_of(const Row& compliance, const Row& impulse) {
     return -compliance.cwiseProduct(impulse);
   }
+  /// The largest (1 - theta) |h - h of the step before| times the frequency of a spring with which it follows all of d.
+  static constexpr Scalar most_missed = 2;
+  /// d / h of a contact; law/compliant.hpp has the equation [m/s].
+  Row missed_motion(const StepContext<S, Law>& context, std::size_t c, const CellJumps<S>* jumps,
+                    const Operator& op) const {
+    const Contact<S>& point = context.contacts.points[c];
+    const auto change = [&](std::uint32_t body) ->
+        typename S::Twist { return now_ * context.bodies.velocity[body] - then_ * last_[body]; };
+    const typename S::Twist a = change(point.a), b = change(point.b);
+    typename S::Vector velocity = Operator::relative_velocity(point, a, b);
+    if (jumps) velocity += (now_ - then_) * (*jumps)[c];
+    Row row;
+    row.template head<S::dim>() = op.turned(c, velocity);
+    if constexpr (RollingLaw<Law, S>)
+      row.template tail<S::angular_dim>() = op.radius(c) *
+                                            S::angular_frame(op.frame(c)).transpose() *
+                                            (angular<S>(b) - angular<S>(a));
+    // With the stiffness of the pair, to which all its points add.
+    const Law& law = context.materials.laws()[point.law];
+    const Scalar w =
+        std::max(Scalar(0), op.trace(c) - compliance_[c].sum()) / Scalar(Row::RowsAtCompileTime);
+    const Scalar frequency = most_missed / (context.step * std::abs(now_ - then_));
+    for (int k = 0; k < Row::RowsAtCompileTime; ++k) {
+      const Scalar own = k == 0 ? law.normal_compliance() : law.tangential_compliance();
+      row[k] *= std::min(Scalar(1), frequency * std::sqrt(own / w));
+    }
+    return row;
+  }
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;
   auto serialized_members() { return std::tie(last_step_, energies_); }
-  void deserialized() { sum_energies(); }
+  void deserialized() {
+    sum_energies();
+    last_.clear();
+  }
 
   void sum_energies() {
     energy_ = {};
     for (const Energy& energy : energies_) energy_.add(energy);
   }
 
-  List<Row> compliance_;   // c [1/kg]
-  List<Row> relaxation_;   // what the memory adds to b [m/s]
-  List<double> before_;    // energy before the step, one per contact [J]
-  Scalar last_step_ = 0;   // h of the step before [s]
-  List<Energy> energies_;  // one per contact, after the step before
-  Energy energy_;          // their sum
+  List<typename S::Twist> last_;  // velocities of the bodies after the step before [m/s, rad/s]
+  List<Row> compliance_;          // c [1/kg]
+  List<Row> relaxation_;          // what the memory adds to b [m/s]
+  List<double> before_;           // energy before the step, one per contact [J]
+  Scalar last_step_ = 0;          // h of the step before [s]
+  Scalar now_ = 0;                // 1 - theta if the step differs from the step before, 0 otherwise
+  Scalar then_ = 0;               // now_ times h of the step before over h
+  List<Energy> energies_;         // one per contact, after the step before
+  Energy energy_;                 // their sum
 };
 
 }  // namespace moreau::detail

@@ -217,8 +217,11 @@ class ImpulseDynamics {
     if constexpr (compliant) {
       // The springs bear the pushes against the attraction of contacts, but not the attraction of bonds.
       found = start(context, attraction_.pushes_before(context, springs_.last_step()));
-      springs_.scale(context, impulses);
-      bonds_.hide(impulses, [&] { springs_.relax(context, impulses, problem_.delassus); });
+      springs_.scale(context, impulses, theta());
+      bonds_.hide(impulses, [&] {
+        springs_.relax(context, impulses, context.deforms() ? &cell_.jumps() : nullptr,
+                       problem_.delassus);
+      });
     } else {
       found = start(context, context.previous);
     }
@@ -470,6 +473,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
   measure_losses(context, report);
   shifts_.turn_spins(correction_.shifts(), after_, team_);
   advance_configuration<S>(integrator_, context.bodies, after_, context.step, team_);
+  if constexpr (compliant) springs_.remember(context.bodies.velocity);
 }
 
 }  // namespace moreau::detail
