@@ -348,7 +348,12 @@ class ChordVelocities {
                                 : Vector(chord_excess<S>(of_b, lever_b, step) - own);
     if (radius > contact.gap && rounding_of(assembly, a, key.part_a, normal) > 0) {
       const Vector around = S::spin(axis, normal);
-      const Vector swing = -around.dot(slip) / (radius - contact.gap) * shift.dot(normal) * around;
+      const Scalar rate = -around.dot(slip) / (radius - contact.gap);  // of the core about the axis
+      // The chord is that of the core: a ball that rolls on the spot has none.
+      if (!of_b.isZero(0))
+        sum += chord_excess<S>(Angular(axis * rate), lever_b, step) -
+               chord_excess<S>(Angular(of_b - tilt), lever_b, step);
+      const Vector swing = rate * shift.dot(normal) * around;
       sum += rolling(normal, of_a, of_b, swing,
                      Vector(slip + S::spin(Angular(of_b - tilt), lever_b)), step);
     }
