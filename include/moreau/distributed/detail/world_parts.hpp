@@ -15,6 +15,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/io/archive.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -199,15 +200,15 @@ struct BodyList {
 };
 
 /// Contacts on their way, with the bodies of the whole simulation, and the energies of their springs.
-/// @tparam List Contacts
-template <class List, class Energy>
+/// @tparam Points Contacts
+template <class Points, class Energy>
 struct ContactList {
-  List contacts;
-  std::vector<Energy> energies;  ///< one per contact, or none
+  Points contacts;
+  List<Energy> energies;  ///< one per contact, or none
 
   /// @param a,b bodies of the contact in the list
-  void add(const List& from, std::span<const Energy> from_energies, std::size_t c, std::uint32_t a,
-           std::uint32_t b) {
+  void add(const Points& from, std::span<const Energy> from_energies, std::size_t c,
+           std::uint32_t a, std::uint32_t b) {
     contacts.points.push_back(from.points[c]);
     contacts.points.back().a = a;
     contacts.points.back().b = b;
