@@ -117,10 +117,11 @@ struct Wide {
   static Values square_root(const Values& v) {
     constexpr bool floats = sizeof(T) == 4;
 #if defined(EIGEN_VECTORIZE_AVX512)
+    // With a mask of ones: of the functions without one g++ 12 says that they read an uninitialized variable.
     if constexpr (Bytes == 64 && floats)
-      return bits_of<Values>(_mm512_sqrt_ps(bits_of<__m512>(v)));
+      return bits_of<Values>(_mm512_maskz_sqrt_ps(__mmask16(-1), bits_of<__m512>(v)));
     else if constexpr (Bytes == 64)
-      return bits_of<Values>(_mm512_sqrt_pd(bits_of<__m512d>(v)));
+      return bits_of<Values>(_mm512_maskz_sqrt_pd(__mmask8(-1), bits_of<__m512d>(v)));
 #endif
 #if defined(EIGEN_VECTORIZE_AVX)
     if constexpr (Bytes == 32 && floats) return bits_of<Values>(_mm256_sqrt_ps(bits_of<__m256>(v)));
