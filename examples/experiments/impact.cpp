@@ -145,7 +145,7 @@ void impact(Session& session) {
   const Numerics numerics{5e-5, 1e-3, 0.2};
   std::vector<Case> cases{{25000, {1, 2, 3}, "impact_25k.csv", numerics},
                           {100000, {1}, "impact_100k.csv", numerics},
-                          {50000, {1, 2, 3}, "", numerics}};
+                          {50000, {1, 2, 3}, "impact_50k.csv", numerics}};
   if (session.quick()) {
     one_impact(session, {1000, {1}, "", numerics}, 1, 0.01);
     return;

@@ -165,16 +165,18 @@ double rate_of(const Numbers& counts, double from, double until) {
   return -(ty - t * y / n) / (tt - t * t / n);
 }
 
-/// Rates of the published curves at the same times.
-std::string published_rates(double from, double until) {
-  std::string text = "; at these times";
-  for (const auto& [name, column] :
-       {std::pair{"LIGGGHTS", std::size_t(1)}, {"MUSEN", std::size_t(2)}}) {
+/// Rates of the published curves of M1 at the same times.
+std::string published_rates(const Outlet& outlet, double from, double until) {
+  std::string text = "at these times";
+  std::vector<const char*> names{"LIGGGHTS", "MUSEN"};
+  if (outlet.radius < large.radius) names = {"MUSEN"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
     Numbers counts;
-    for (const Numbers& line : read_data("silo_large_M1.csv")) counts.push_back(line[column]);
+    for (const Numbers& line : read_data(std::string("silo_") + outlet.name + "_M1.csv"))
+      counts.push_back(line[k + 1]);
     std::array<char, 32> rate{};
     std::snprintf(rate.data(), rate.size(), " %.1f", rate_of(counts, from, until) / 1000);
-    text += rate.data() + std::string(" (") + name + ")";
+    text += rate.data() + std::string(" (") + names[k] + ")";
   }
   return text;
 }
@@ -206,8 +208,9 @@ void silo(Session& session) {
     const double until = c.balls == 100000 && c.outlet.radius > 0.025 ? 3.5 : c.until;
     row.measured = rate_of(outcome.counts, c.from, until) / 1000;
     const bool compared = !c.second && c.outlet.radius > 0.025 && !session.quick();
-    row.published = compared ? "23.2 ± 1.9 (eight codes)" : "–";
-    if (compared && c.balls < 100000) row.published += published_rates(c.from, until);
+    row.published = compared ? "23.2 ± 1.9 (eight codes); " : "";
+    if (!c.second) row.published += published_rates(c.outlet, c.from, until);
+    if (c.second) row.published = "–";
     if (compared) row.verdict = std::abs(row.measured - 23.2) <= 0.08 * 23.2 ? "yes" : "no";
     session.row(row);
     if (!c.second && c.outlet.radius > 0.025) last_large = row.measured;

@@ -16,7 +16,7 @@ if (has("drum")) {
        data . "/drum_zone2_M1.csv" using 1:3 skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
        file("drum") using 1:2 skip 1 with points pt 6 lc rgb own title "moreau, rigid"
 }
-do for [n in "25 100"] {
+do for [n in "25 50 100"] {
   name = sprintf("impact_%sk", n)
   if (has(name)) {
     set output folder . "/" . name . ".png"
@@ -47,6 +47,7 @@ if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \
        data . "/silo_large_M1.csv" using 1:(100000 - $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, 100,000, large orifice", \
+       data . "/silo_small_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 dt 3 lc rgb third title "MUSEN, 100,000, small orifice", \
        for [name in "silo_large_M1_100k silo_small_M1_100k silo_large_M1_30k silo_small_M1_30k"] \
          (has(name) ? file(name) : "/dev/null") using 1:3 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
   set key top right; set autoscale
