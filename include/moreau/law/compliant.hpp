@@ -33,19 +33,26 @@
 // (g / h, -c_t s_t) is added. An error of the solver in one step acts as a force in the next, because the memory of
 // the springs is the impulses and the gap; errors do not add up.
 //
-// If the step changes, from h' to h, the springs whose memory is the impulse must follow what the bodies have moved. With
-// parameter theta of the integrator (motion/moreau_jean.hpp) contacts are detected where the bodies are (1 - theta) h after
-// the start of the step. If u' is the velocity after the step before, and u that before this one (the same, unless it was
-// set), the contact moves between the two detections by theta h' u' + (1 - theta) h u, and its spring has followed h' u'. The
-// difference
+// If the step changes, from h' to h, the springs must follow what the bodies have moved. With the parameter theta of the
+// integrator (motion/moreau_jean.hpp) contacts are detected where the bodies are the time a = (1 - theta) h after the start of
+// the step. If u' is the velocity after the step before, and u that before this one (the same, unless it was set), the contact
+// moves between the two detections by (h' - a') u' + a u, and its springs have followed h' u'. The difference
 //
-//     d = (1 - theta) (h u - h' u')
+//     d = a u - a' u'
 //
-// is added to the sliding velocity as d / h. Without it these differences would add up: a block on its tangential springs
-// would stay displaced from where its load holds it. Half of a step at the velocity before it is a step of explicit Euler.
-// It makes energy in a spring of frequency omega if (1 - theta) |h - h'| omega exceeds about 2 and short steps, which hardly
-// damp, come between. So where this product exceeds 2, only the share 2 / product of d is added; omega^2 = w / C with the
-// mean w of the diagonal of W_cc and C of the pair. The gap is measured, and needs no d.
+// is in the gap, and springs whose memory is the impulse get d / h added to their sliding velocity. Without it these
+// differences would add up: a block on its tangential springs would stay displaced from where its load holds it.
+//
+// The step from one detection to the next is implicit Euler, which takes energy from a spring whatever h is, but for d = (a - a') v,
+// a step of explicit Euler. With the stretch y that the step before has found, the stiffness k, the mass m and x = h' omega,
+// omega^2 = k / m, the energy of the spring and its body changes in both by
+//
+//     -x^2 (k y^2 + m v^2) / 2 + k y d + k d^2 / 2.
+//
+// If |a - a'| is at most h' / 2, this is not positive for any y and v if x >= 1 / sqrt(3); steps with a smaller x resolve the
+// oscillation of the spring. So a is at most a' + h' / 2, which a step that grows to more than its double meets by a larger theta,
+// once. As a' is at most h' / 2, a step that shrinks meets it anyway. Bodies that no impulse moves are put where the theta leads them
+// that was set, so that flight keeps its order.
 //
 // With restitution e > 0 a contact acts only where g <= 0 and the memory of the normal spring is the
 // impulse, like that of the tangential one:

@@ -44,6 +44,9 @@ class MoreauJean {
     require(theta >= 0.5 && theta <= 1, "MoreauJean", "theta", theta, "must lie in [0.5, 1]");
   }
   double theta() const { return theta_; }  ///< in [1/2, 1] [-]
+  /// The same scheme with another theta. Compliant contacts step with a larger one where the step grows.
+  /// @throws std::invalid_argument if theta is outside of [1/2, 1]
+  MoreauJean with_theta(double theta) const { return MoreauJean(theta); }
 
   /// Computes the angular momentum of every body and moves the bodies to the detection
   /// configuration.

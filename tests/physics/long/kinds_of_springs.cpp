@@ -5,6 +5,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
+#include <random>
 #include <type_traits>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/energy.hpp"
+#include "moreau/motion/moreau_jean.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/regular_shape.hpp"
@@ -148,4 +150,86 @@ TEST_CASE_TEMPLATE(
             if (restitution == 1 && friction == 0) CHECK(energy() >= start * (1 - 1e-3));
             if (restitution < 1) CHECK(energy() < 0.9 * start);
           }
+}
+
+// A block on its springs, which is kicked up, down or along its floor, and does not leave it: whatever the steps, its kinetic
+// energy never exceeds that of the kick.
+TEST_CASE_TEMPLATE("kinds: springs make no energy, however the step changes", ShapeT, Polyhedron<>,
+                   Polygon<>, Polyhedron<float>, Polygon<float>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = Compliant<SignoriniCoulomb<T>>;
+  constexpr double mass = 10, half = 0.05, weight = 9.81;
+  const Vector up = Vector::Unit(S::dim - 1);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(0, 1);
+  for (const double omega : {30.0, 300.0})
+    for (const double theta : {0.5, 0.8})
+      for (const int direction : {0, 1, 2})
+        for (int pattern = 0; pattern < 9; ++pattern) {
+          // Rare long steps, two in a row, and steps that are drawn.
+          const double least = (pattern < 4 ? 0.07 : 0.01) / omega;
+          const double growth = std::pow(10.0, 1 + pattern % 4);
+          const auto length = [&](int k) {
+            if (pattern == 8) return 0.01 / omega * std::pow(10.0, 4 * number(random));
+            return k % 20 < (pattern < 4 ? 19 : 18) ? least : least * growth;
+          };
+          const double stiffness = mass * omega * omega;
+          Simulation<ShapeT, Law> world(
+              T(2 * half),
+              Materials<Law>(1, Law(SignoriniCoulomb<T>(T(5)), T(stiffness), T(stiffness / 2))));
+          world.set_integrator(MoreauJean(theta));
+          const auto block =
+              world.add_grain(world.add_shape(cuboid<ShapeT>(Vector::Constant(T(half)))),
+                              {Vector(T(half - weight / omega / omega) * up)},
+                              T(mass / std::pow(2 * half, S::dim)));
+          world.add_wall(up, Vector::Zero());
+          world.set_gravity(T(-weight) * up);
+          for (int k = 0; k < 20; ++k) world.step(T(10 / omega));
+          const double speed = 0.2 * weight / omega;
+          const Vector kick = direction == 0   ? Vector(up)
+                              : direction == 1 ? Vector(-up)
+                                               : Vector(Vector::UnitX());
+          world.set_velocity(block, T(speed) * kick);
+          double most = 0;
+          for (int k = 0; k < rounds(1500); ++k) {
+            world.step(T(length(k)));
+            const auto kinetic = kinetic_energy(world);
+            most = std::max(most, double(kinetic.translation) + double(kinetic.rotation));
+          }
+          CAPTURE(omega);
+          CAPTURE(theta);
+          CAPTURE(direction);
+          CAPTURE(pattern);
+          CHECK(most <= mass * speed * speed / 2 * (1 + (std::is_same_v<T, float> ? 1e-3 : 1e-9)));
+        }
+}
+
+// Steps that grow have a larger theta; bodies in flight do not feel it.
+TEST_CASE_TEMPLATE("kinds: flight beside springs is exact, however the step changes", ShapeT,
+                   Polyhedron<>, Polygon<>, Polyhedron<float>, Polygon<float>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = Compliant<SignoriniCoulomb<T>>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  Simulation<ShapeT, Law> world(T(0.1),
+                                Materials<Law>(1, Law(SignoriniCoulomb<T>(T(0.5)), T(1e5))));
+  const auto shape = world.add_shape(cuboid<ShapeT>(Vector::Constant(T(0.05))));
+  world.add_grain(shape, {Vector(T(0.05) * up)}, T(1000));
+  const auto grain = world.add_grain(shape, {Vector(T(1) * Vector::UnitX() + T(5) * up)}, T(1000));
+  world.set_velocity(grain, Vector(T(2) * Vector::UnitX() + T(3) * up));
+  world.add_wall(up, Vector::Zero());
+  world.set_gravity(T(-10) * up);
+  double time = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double h = k % 7 == 0 ? 1e-2 : k % 3 == 0 ? 1e-3 : 1e-4;
+    world.step(T(h));
+    time += h;
+  }
+  const Vector expected =
+      T(1 + 2 * time) * Vector::UnitX() + T(5 + 3 * time - 5 * time * time) * up;
+  CHECK(double((world.pose(grain).position - expected).norm()) <
+        (std::is_same_v<T, float> ? 1e-4 : 1e-12));
 }

@@ -88,25 +88,37 @@ class ContactSprings {
   Scalar last_step() const {
     return last_step_;
   }  ///< length of the step before; 0 before the first [s]
-  /// How springs turn since the detection of the step before: at the velocity after that step, over
-  /// theta times its length and 1 - theta times this length. An integrator without theta() counts as
-  /// one with 1/2.
+  /// The integrator of a step, at most as far ahead of the start of the step as law/compliant.hpp says: with a larger
+  /// theta where the step grows. One without with_theta() stays as it is.
   template <class Integrator>
-  SpringTurn<S> turn(const StepContext<S, Law>& context, const Integrator& integrator) const {
-    auto theta = Scalar(0.5);
-    if constexpr (requires { integrator.theta(); }) theta = Scalar(integrator.theta());
-    return {context.bodies.velocity, theta * last_step_ + (1 - theta) * context.step};
+  Integrator for_step(const Integrator& integrator, Scalar step) const {
+    if constexpr (requires { integrator.with_theta(integrator.theta()); }) {
+      const Scalar most = ahead_ + last_step_ / 2;
+      if (last_step_ > 0 && (1 - Scalar(integrator.theta())) * step > most)
+        return integrator.with_theta(1 - double(most) / double(step));
+    }
+    return integrator;
+  }
+  /// How springs turn since the detection of the step before: at the velocity after that step, over the rest of that step
+  /// and the part of this one before its detection.
+  /// @param theta of the integrator in this step
+  SpringTurn<S> turn(const StepContext<S, Law>& context, Scalar theta) const {
+    const Scalar rest = last_step_ > 0 ? last_step_ - ahead_ : Scalar(0);
+    return {context.bodies.velocity, rest + (1 - theta) * context.step};
   }
   /// Makes the impulses of the step before those of the same forces over this step. With restitution, whose
   /// memory is the impulse, the springs of a pair keep their energy if their number changes, and so their
   /// stiffness: a force that stayed the same would make energy.
   /// @param impulses in: of the step before; out: s [N s]
-  /// @param theta    of the integrator
+  /// @param theta    of the integrator in this step
   void scale(const StepContext<S, Law>& context, std::span<Row> impulses, Scalar theta) {
     const Scalar ratio = last_step_ > 0 ? context.step / last_step_ : Scalar(1);
-    now_ = ratio != 1 ? 1 - theta : Scalar(0);
-    then_ = now_ / ratio;
+    const Scalar ahead = (1 - theta) * context.step;
+    const bool changes = last_step_ > 0 && ahead != ahead_;
+    now_ = changes ? ahead / context.step : Scalar(0);
+    then_ = changes ? ahead_ / context.step : Scalar(0);
     last_step_ = context.step;
+    ahead_ = ahead;
     for (Row& impulse : impulses) impulse *= ratio;
     const ContactsOf<Law, S>&now = context.contacts, &before = context.previous;
     const Scalar length = open_length(context);
@@ -130,7 +142,7 @@ class ContactSprings {
     before_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       relaxation_[c] = relaxation_of(compliance_[c], impulses[c]);
-      if (now_ > 0 && !impulses[c].isZero(0))
+      if ((now_ != 0 || then_ != 0) && !impulses[c].isZero(0))
         relaxation_[c] += missed_motion(context, c, jumps, op);
       const Contact<S>& point = context.contacts.points[c];
       Row stretch = relaxation_[c];
@@ -268,8 +280,6 @@ class ContactSprings {
   MOREAU_COMPILED_ONCE static Row relaxation_of(const Row& compliance, const Row& impulse) {
     return -compliance.cwiseProduct(impulse);
   }
-  /// The largest (1 - theta) |h - h of the step before| times the frequency of a spring with which it follows all of d.
-  static constexpr Scalar most_missed = 2;
   /// d / h of a contact; law/compliant.hpp has the equation [m/s].
   Row missed_motion(const StepContext<S, Law>& context, std::size_t c, const CellJumps<S>* jumps,
                     const Operator& op) const {
@@ -285,20 +295,11 @@ class ContactSprings {
       row.template tail<S::angular_dim>() = op.radius(c) *
                                             S::angular_frame(op.frame(c)).transpose() *
                                             (angular<S>(b) - angular<S>(a));
-    // With the stiffness of the pair, to which all its points add.
-    const Law& law = context.materials.laws()[point.law];
-    const Scalar w =
-        std::max(Scalar(0), op.trace(c) - compliance_[c].sum()) / Scalar(Row::RowsAtCompileTime);
-    const Scalar frequency = most_missed / (context.step * std::abs(now_ - then_));
-    for (int k = 0; k < Row::RowsAtCompileTime; ++k) {
-      const Scalar own = k == 0 ? law.normal_compliance() : law.tangential_compliance();
-      row[k] *= std::min(Scalar(1), frequency * std::sqrt(own / w));
-    }
     return row;
   }
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;
-  auto serialized_members() { return std::tie(last_step_, energies_); }
+  auto serialized_members() { return std::tie(last_step_, ahead_, energies_); }
   void deserialized() {
     sum_energies();
     last_.clear();
@@ -314,10 +315,10 @@ class ContactSprings {
   List<Row> relaxation_;          // what the memory adds to b [m/s]
   List<double> before_;           // energy before the step, one per contact [J]
   Scalar last_step_ = 0;          // h of the step before [s]
-  Scalar now_ = 0;                // 1 - theta if the step differs from the step before, 0 otherwise
-  Scalar then_ = 0;               // now_ times h of the step before over h
-  List<Energy> energies_;         // one per contact, after the step before
-  Energy energy_;                 // their sum
+  Scalar ahead_ = 0;              // its part before detection, a [s]
+  Scalar now_ = 0, then_ = 0;  // a of this step and of the step before over h; 0 if they are equal
+  List<Energy> energies_;      // one per contact, after the step before
+  Energy energy_;              // their sum
 };
 
 }  // namespace moreau::detail

@@ -71,7 +71,10 @@ class ImpulseDynamics {
 
   ImpulseDynamics(const Solver& solver, const OverlapCorrectionOptions& correction,
                   const Integrator& integrator)
-      : solver_(solver), correction_(checked(correction)), integrator_(integrator) {
+      : solver_(solver),
+        correction_(checked(correction)),
+        integrator_(integrator),
+        moving_(integrator) {
     set_team(Team());
   }
 
@@ -98,14 +101,9 @@ class ImpulseDynamics {
     team_ = team;
     if constexpr (requires { solver_.set_team(team); }) solver_.set_team(team);
   }
-  void set_integrator(const Integrator& integrator) { integrator_ = integrator; }
-  /// The part of a step that comes after detection [-]; 1/2 of an integrator without theta().
-  Scalar theta() const {
-    if constexpr (requires { integrator_.theta(); })
-      return Scalar(integrator_.theta());
-    else
-      return Scalar(0.5);
-  }
+  void set_integrator(const Integrator& integrator) { integrator_ = moving_ = integrator; }
+  /// The part of the step that comes after detection [-]; 1/2 of an integrator without theta().
+  Scalar theta() const { return theta_of(moving_); }
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(checked(options));
   }
@@ -135,7 +133,8 @@ class ImpulseDynamics {
     after_.resize(bodies.size());
     roots_.resize(bodies.size());
     shifts_.resize(bodies.size());
-    detail::predict_configuration<S>(integrator_, bodies, momentum_, step, team_);
+    if constexpr (compliant) moving_ = springs_.for_step(integrator_, step);
+    detail::predict_configuration<S>(moving_, bodies, momentum_, step, team_);
   }
   /// Whether other processes share bodies.
   bool shares_bodies() const { return shared_ != nullptr; }
@@ -181,7 +180,16 @@ class ImpulseDynamics {
       return std::tie(solver_, correction_, integrator_);
   }
 
-  void deserialized() { forget_problem(); }
+  void deserialized() {
+    moving_ = integrator_;
+    forget_problem();
+  }
+  static Scalar theta_of([[maybe_unused]] const Integrator& integrator) {
+    if constexpr (requires { integrator.theta(); })
+      return Scalar(integrator.theta());
+    else
+      return Scalar(0.5);
+  }
 
   static constexpr bool compliant = CompliantLaw<Law, S>;
   static constexpr bool bridging = BridgingLaw<Law, S>;
@@ -240,7 +248,7 @@ class ImpulseDynamics {
       return found;
     };
     if constexpr (compliant)
-      return carry_by(springs_.turn(context, integrator_));
+      return carry_by(springs_.turn(context, theta()));
     else
       return carry_by(ImpulseTurn<S>());
   }
@@ -372,6 +380,15 @@ class ImpulseDynamics {
     report.dissipation += losses.dissipation;
     end_bonds(context, report);
   }
+  /// After a step with another theta: bodies that no impulse moves are where the theta that was set leads them.
+  void move_free_bodies([[maybe_unused]] const Context& context) {
+    const Scalar time = (theta_of(integrator_) - theta()) * context.step;
+    if (time == 0) return;
+    team_.share_each(after_.size(), 256, [&](std::size_t i) {
+      if (!problem_.delassus.velocity_change(i).isZero(0)) return;
+      context.bodies.pose[i].position += time * linear<S>(Twist(after_[i] - before_[i]));
+    });
+  }
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
   void find_velocities([[maybe_unused]] const Context& context) {
     [[maybe_unused]] bool attracted = false;
@@ -390,7 +407,7 @@ class ImpulseDynamics {
   std::shared_ptr<SharedBodies> shared_;
   Solver solver_;
   OverlapCorrection<S> correction_;
-  Integrator integrator_;
+  Integrator integrator_, moving_;  // as set, and of this step
   Problem problem_;
   [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
   [[no_unique_address]] std::conditional_t<AttractiveLaw<Law, S>, Attraction<S, Law>,
@@ -427,7 +444,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Con
       angular<S>(before_[i]) = product(root, typename S::Angular(product(root, momentum_[i])));
   });
   const std::span free(free_);
-  free_velocity<S>(integrator_, bodies, context.gravity, momentum_, free, context.step, team_);
+  free_velocity<S>(moving_, bodies, context.gravity, momentum_, free, context.step, team_);
   if (context.deforms())
     CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
   if constexpr (AttractiveLaw<Law, S>) unattracted_ = free_;
@@ -472,8 +489,11 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
                                                          StepReport& report) {
   measure_losses(context, report);
   shifts_.turn_spins(correction_.shifts(), after_, team_);
-  advance_configuration<S>(integrator_, context.bodies, after_, context.step, team_);
-  if constexpr (compliant) springs_.remember(context.bodies.velocity);
+  advance_configuration<S>(moving_, context.bodies, after_, context.step, team_);
+  if constexpr (compliant) {
+    springs_.remember(context.bodies.velocity);
+    move_free_bodies(context);
+  }
 }
 
 }  // namespace moreau::detail
