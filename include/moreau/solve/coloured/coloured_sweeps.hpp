@@ -46,6 +46,7 @@ class ColouredSweeps {
       is_packed_ = true;
     }
     find_velocities(team);
+    kernel_.end_packing();
     kernel_.give_velocities(problem.delassus, impulses, team, shared);
     update_active();
     save(team);

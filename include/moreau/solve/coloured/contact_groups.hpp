@@ -65,12 +65,11 @@ class ContactGroups {
   std::size_t velocities() const { return body_count_ + groups.size(); }
   std::size_t bodies() const { return body_count_; }  ///< number of bodies
 
-  /// @param problem  contacts of one pair of bodies follow one another
+  /// Makes the groups; pack() then fills them.
+  /// @param op       of a problem in which the contacts of one pair of bodies follow one another
   /// @param impulses the warm start; pairs with most points that push or approach come first within their colour
   /// @param team     threads that share the work
-  void build(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-             const Team& team) {
-    const Operator& op = problem.delassus;
+  void lay_out(const Operator& op, std::span<const Impulse> impulses, const Team& team) {
     body_count_ = op.body_count();
     find_pairs(op);
     colouring_.assign(bodies_, moves_,
@@ -95,10 +94,68 @@ class ContactGroups {
     contact_of_.resize(point_count_ * lanes, none);
     masses.resize(groups.size());
     mass_matrices.resize(matrices_);
-    team.share_each(groups.size(), 16, [&](std::size_t k) { pack(problem, impulses, k); });
   }
 
-  /// Takes other free velocities and impulses of the contacts of build().
+  /// Fills a group with its bodies and contacts. Several threads may fill different groups.
+  /// @param problem,impulses those of lay_out()
+  void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
+            std::size_t number) {
+    const Operator& op = problem.delassus;
+    Group& group = groups[number];
+    const auto members_of = [&](std::size_t k) {
+      return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
+    };
+    const auto members = members_of(number);
+    if (number + 1 < groups.size())
+      for (const Ordered& next : members_of(number + 1))
+        op.prefetch(first_[next.pair], points_of(next.pair));
+    const auto still = static_cast<std::uint32_t>(body_count_ + number);
+    group.a.fill(group.hub == Hub::a ? body_of(members[0].pair, Hub::a) : still);
+    group.b.fill(group.hub == Hub::b ? body_of(members[0].pair, Hub::b) : still);
+    masses[number] = {};
+    if (group.matrices != Group::isotropic) mass_matrices[group.matrices] = {};
+    for (std::size_t lane = 0; lane < members.size(); ++lane) {
+      const auto& [a, b] = bodies_[members[lane].pair];
+      masses[number][0].set(lane, op.inverse_mass(a));
+      masses[number][1].set(lane, op.inverse_mass(b));
+      if (group.matrices != Group::isotropic)
+        mass_matrices[group.matrices].set(lane, op.inverse_mass(a), op.inverse_mass(b));
+    }
+    std::uint32_t together = 0;  // points of the group
+    for (const Ordered& member : members) together += points_of(member.pair);
+    if (together < group.count * lanes)
+      std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
+                  none);
+    for (std::size_t lane = 0; lane < members.size(); ++lane) {
+      const std::uint32_t k = members[lane].pair;
+      if (moves_[bodies_[k][0]]) group.a[lane] = bodies_[k][0];
+      if (moves_[bodies_[k][1]]) group.b[lane] = bodies_[k][1];
+      // Points that are likely to act come first.
+      std::size_t p = group.first;
+      const std::uint32_t count = points_of(k), places = std::bit_ceil(count);
+      for (const bool acts : {true, false})
+        for (std::uint32_t i = 0; i < places; ++i) {
+          const std::uint32_t c = first_[k] + scattered(i, count);
+          if (c >= first_[k + 1] || likely(op, impulses, c) != acts) continue;
+          contact_of_[p++ * lanes + lane] = c;
+        }
+    }
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      Filler::fill(points[p], &contact_of_[p * lanes], problem, impulses);
+    if (group.hub == Hub::none) return;
+    const std::uint32_t with_hub =
+        group.delays_hub() ? phase_points_[group.phase - FirstFitColouring::colours] : together;
+    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        const std::uint32_t c = contact_of_[p * lanes + lane];
+        if (c == none) continue;
+        Block block = op.block(c);
+        block *= heavier_by_hub(op, c, group.hub == Hub::a, with_hub);
+        points[p].block.set(lane, block);
+      }
+  }
+
+  /// Takes other free velocities and impulses of the contacts of lay_out(), after pack().
   void refill(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
               const Team& team) {
     team.share_each(points.size(), 64, [&](std::size_t p) {
@@ -261,64 +318,6 @@ class ContactGroups {
     return FirstFitColouring::colours + static_cast<std::uint32_t>(phase_points_.size()) - 1;
   }
   std::uint32_t points_of(std::uint32_t pair) const { return first_[pair + 1] - first_[pair]; }
-
-  /// Fills a group with its bodies and contacts.
-  void pack(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
-            std::size_t number) {
-    const Operator& op = problem.delassus;
-    Group& group = groups[number];
-    const auto members_of = [&](std::size_t k) {
-      return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
-    };
-    const auto members = members_of(number);
-    if (number + 1 < groups.size())
-      for (const Ordered& next : members_of(number + 1))
-        op.prefetch(first_[next.pair], points_of(next.pair));
-    const auto still = static_cast<std::uint32_t>(body_count_ + number);
-    group.a.fill(group.hub == Hub::a ? body_of(members[0].pair, Hub::a) : still);
-    group.b.fill(group.hub == Hub::b ? body_of(members[0].pair, Hub::b) : still);
-    masses[number] = {};
-    if (group.matrices != Group::isotropic) mass_matrices[group.matrices] = {};
-    for (std::size_t lane = 0; lane < members.size(); ++lane) {
-      const auto& [a, b] = bodies_[members[lane].pair];
-      masses[number][0].set(lane, op.inverse_mass(a));
-      masses[number][1].set(lane, op.inverse_mass(b));
-      if (group.matrices != Group::isotropic)
-        mass_matrices[group.matrices].set(lane, op.inverse_mass(a), op.inverse_mass(b));
-    }
-    std::uint32_t together = 0;  // points of the group
-    for (const Ordered& member : members) together += points_of(member.pair);
-    if (together < group.count * lanes)
-      std::fill_n(contact_of_.begin() + std::ptrdiff_t(group.first * lanes), group.count * lanes,
-                  none);
-    for (std::size_t lane = 0; lane < members.size(); ++lane) {
-      const std::uint32_t k = members[lane].pair;
-      if (moves_[bodies_[k][0]]) group.a[lane] = bodies_[k][0];
-      if (moves_[bodies_[k][1]]) group.b[lane] = bodies_[k][1];
-      // Points that are likely to act come first.
-      std::size_t p = group.first;
-      const std::uint32_t count = points_of(k), places = std::bit_ceil(count);
-      for (const bool acts : {true, false})
-        for (std::uint32_t i = 0; i < places; ++i) {
-          const std::uint32_t c = first_[k] + scattered(i, count);
-          if (c >= first_[k + 1] || likely(op, impulses, c) != acts) continue;
-          contact_of_[p++ * lanes + lane] = c;
-        }
-    }
-    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
-      Filler::fill(points[p], &contact_of_[p * lanes], problem, impulses);
-    if (group.hub == Hub::none) return;
-    const std::uint32_t with_hub =
-        group.delays_hub() ? phase_points_[group.phase - FirstFitColouring::colours] : together;
-    for (std::uint32_t p = group.first; p < group.first + group.count; ++p)
-      for (std::size_t lane = 0; lane < members.size(); ++lane) {
-        const std::uint32_t c = contact_of_[p * lanes + lane];
-        if (c == none) continue;
-        Block block = op.block(c);
-        block *= heavier_by_hub(op, c, group.hub == Hub::a, with_hub);
-        points[p].block.set(lane, block);
-      }
-  }
 
   /// The order in which the points of a pair are visited: i with its bits reversed. Vertices of a face often have
   /// their numbers along its rim. A sweep along the rim hardly damps the rocking of a face of many vertices, and with

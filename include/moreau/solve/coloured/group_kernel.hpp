@@ -39,14 +39,18 @@ class GroupKernel {
   using Group = typename Groups::Group;
   using Points = typename Groups::Points;
 
-  /// Packs the contacts with their impulses; the bodies have no velocities yet.
+  /// Groups the contacts; the bodies have no velocities yet. The groups are packed by the next apply() of each, by the
+  /// thread that visits it: the points then go through its cache once, not twice.
+  /// @param problem,impulses must outlive these calls of apply()
   /// @param team threads that share the work
   void start(const ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
              const Team& team) {
-    contacts_.build(problem, impulses, team);
+    contacts_.lay_out(problem.delassus, impulses, team);
+    source_ = {&problem, impulses};
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
     hub_changes_.resize(contacts_.groups.size());
+    if (problem.delassus.has_cell()) pack_all();  // a cell asks for the points of all groups
     cell_.start(problem.delassus, contacts_);
     has_extras_ = is_large_ || cell_.moves();
     if (cell_.moves())
@@ -64,8 +68,9 @@ class GroupKernel {
     velocity_.reset(contacts_.velocities(), contacts_.bodies());
     if (cell_.moves()) cell_.begin_from_zero();
   }
-  /// Adds what the impulses of group k do to its bodies; updates its active points.
+  /// Adds what the impulses of group k do to its bodies; updates its active points. After start(), the groups are packed.
   MOREAU_COMPILED_ONCE void apply(std::uint32_t k) {
+    if (source_.problem) contacts_.pack(*source_.problem, source_.impulses, k);
     Group& group = contacts_.groups[k];
     update_active(group);
     if (group.delays_hub()) hub_changes_[k] = {};
@@ -84,6 +89,8 @@ class GroupKernel {
     else
       velocity_.scatter(group, a, b);
   }
+  /// After apply() of all groups: they are packed.
+  void end_packing() { source_ = {}; }
   /// Gives the operator the velocities of the impulses, from which the next sweep starts.
   /// @param impulses those of the points, in the order of the problem
   void give_velocities(Operator& op, std::span<const Impulse> impulses, const Team& team,
@@ -162,6 +169,17 @@ class GroupKernel {
   }
 
  private:
+  /// What apply() packs; null: all groups are packed.
+  struct Source {
+    const ContactProblem<Operator, Law>* problem = nullptr;
+    std::span<const Impulse> impulses{};
+  };
+  MOREAU_COLD void pack_all() {
+    for (std::size_t k = 0; k < contacts_.groups.size(); ++k)
+      contacts_.pack(*source_.problem, source_.impulses, k);
+    end_packing();
+  }
+
   using BodyLanes = typename LaneVelocities<S, Lanes>::BodyLanes;
   using Algebra = LaneAlgebra<S, Values>;
   using Angular = std::array<Values, Algebra::angular>;
@@ -354,6 +372,7 @@ class GroupKernel {
   }
 
   Groups contacts_;
+  Source source_;
   LaneCell<Operator, Points> cell_;
   LaneVelocities<S, Lanes> velocity_;
   bool is_large_ = false;    // whether velocities are loaded ahead

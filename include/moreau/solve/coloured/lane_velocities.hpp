@@ -48,7 +48,7 @@ class LaneVelocities {
     return y;
   }
   /// Makes the present velocities the velocities before the next extrapolation, which then adds nothing.
-  void forget_change() { before_ = now_; }
+  void forget_change() { before_.assign(now_.data(), now_.data() + moving_); }
   /// Adds beta times the change since the last extrapolation; the work of one member of a team.
   MOREAU_COMPILED_ONCE void extrapolate(T beta, int rank, int size) {
     const Values factor = Number::broadcast(beta);
@@ -126,8 +126,8 @@ class LaneVelocities {
     return now_[registers * body + k / Number::lanes][k % Number::lanes];
   }
 
-  List<Values, cache_line> now_, before_;
-  std::size_t moving_ = 0;  // the first of them, that extrapolate() changes
+  List<Values, cache_line> now_, before_;  // before_: only of those that extrapolate() changes
+  std::size_t moving_ = 0;                 // the first of them, that extrapolate() changes
 };
 
 }  // namespace moreau::detail

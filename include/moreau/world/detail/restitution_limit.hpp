@@ -59,8 +59,9 @@
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
 //
-// Without restitution and with walls at rest, the sum of G over the islands is the change of the kinetic energies of the
-// bodies, sum of d . M (2 v_f + d) / 2 with the velocities v_f without the impulses and v_f + d with them. If no body gains
+// Without restitution and with prescribed walls at rest, the sum of G over the islands is the change of the kinetic energies
+// of the bodies, sum of d . M (2 v_f + d) / 2 with the velocities v_f without the impulses and v_f + d with them. M of a
+// wall that forces move along some axes is its mass along these, if it is at rest along the others. If no body gains
 // energy, as in a packing at rest, no island does. Otherwise the sum over the bodies of an island tells. Only if it is
 // positive, the contacts are visited: the sums over them have bounds of their rounding.
 //
@@ -184,6 +185,12 @@ class RestitutionLimit {
     for (std::size_t i = 0; i < free.size(); ++i) {
       const typename S::Twist change = problem.delassus.velocity_change(i);
       if (bodies.is_prescribed(i) ? free[i].isZero(0) : change.isZero(0)) continue;
+      if (is_wall(bodies, i)) {
+        const double gain = energy_of_wall(bodies, i, change, free[i]);
+        if (std::isinf(gain)) return false;
+        any = any || !(gain <= 0);
+        continue;
+      }
       if (!bodies.rotates(i) || !problem.delassus.inverse_mass(i).is_isotropic() ||
           !(bodies.grain_mass[i] > 0))
         return false;
@@ -202,19 +209,41 @@ class RestitutionLimit {
                              const typename S::Twist& change, const typename S::Twist& sum) {
     return double(bodies.grain_mass[i]) * double(linear<S>(change).dot(linear<S>(sum)));
   }
-  /// all_lose() for grains and bodies at rest, by the sums over the bodies of each island.
+  /// Whether a body that forces move is a wall: it moves along axes of its own, and does not rotate.
+  static bool is_wall(const Bodies<S>& bodies, std::size_t i) {
+    return !bodies.rotates(i) && !(bodies.grain_mass[i] > 0);
+  }
+  /// Twice the change of the energy of such a wall [J]; infinite if it moves along an axis that is prescribed.
+  static double energy_of_wall(const Bodies<S>& bodies, std::size_t i,
+                               const typename S::Twist& change, const typename S::Twist& free) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (!angular<S>(free).isZero(0)) return unknown;
+    const typename S::Matrix axes = bodies.axes(i);
+    double sum = 0;
+    for (int k = 0; k < S::dim; ++k) {
+      const double own = double(axes.col(k).dot(linear<S>(free))),
+                   by = double(axes.col(k).dot(linear<S>(change)));
+      if (bodies.inverse_mass[i][k] > 0)
+        sum += by * (2 * own + by) / double(bodies.inverse_mass[i][k]);
+      else if (own != 0)
+        return unknown;
+    }
+    return sum;
+  }
+  /// all_lose() for grains, walls that forces move and bodies at rest, by the sums over the bodies of each island.
   MOREAU_COLD bool islands_lose(const Bodies<S>& bodies, const Problem& problem,
                                 std::span<const Row> impulses,
                                 std::span<const typename S::Twist> free) {
-    for (std::size_t c = 0; c < impulses.size(); ++c) {
-      bouncing_[c].acts = !impulses[c].isZero(0);
-      resting_[c].acts = false;
-    }
-    unite(bodies, problem);
+    unite(bodies, problem, [&](std::size_t c) { return !impulses[c].isZero(0); });
     std::fill(islands_.begin(), islands_.end(), Island{});
     for (std::size_t i = 0; i < free.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const typename S::Twist change = problem.delassus.velocity_change(i);
+      if (is_wall(bodies, i)) {
+        if (!change.isZero(0))
+          islands_[sets_.find(i)].gain += energy_of_wall(bodies, i, change, free[i]);
+        continue;
+      }
       typename S::Twist sum;
       for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
       const typename S::Inertia axes = S::adjoint(bodies.pose[i].rotation);
@@ -370,7 +399,7 @@ class RestitutionLimit {
   }
   /// Finds the islands of contacts that act in one of the two states, and adds up their energies.
   void add_up(const Bodies<S>& bodies, const Problem& problem) {
-    unite(bodies, problem);
+    unite(bodies, problem, [this](std::size_t c) { return bouncing_[c].acts || resting_[c].acts; });
     std::fill(islands_.begin(), islands_.end(), Island{});
     for (std::size_t c = 0; c < bouncing_.size(); ++c) {
       const State &bounce = bouncing_[c], &rest = resting_[c];
@@ -395,12 +424,13 @@ class RestitutionLimit {
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
     }
   }
-  /// Makes the sets of bodies that contacts connect which act in one of the two states.
-  void unite(const Bodies<S>& bodies, const Problem& problem) {
+  /// Makes the sets of bodies that contacts connect which act.
+  /// @param acts function: index of a contact -> whether it acts
+  void unite(const Bodies<S>& bodies, const Problem& problem, const auto& acts) {
     sets_.assign(bodies.size());
     for (std::size_t c = 0; c < bouncing_.size(); ++c) {
       const auto [a, b] = problem.delassus.bodies(c);
-      if (!bouncing_[c].acts && !resting_[c].acts) continue;
+      if (!acts(c)) continue;
       if (!bodies.is_prescribed(a) && !bodies.is_prescribed(b)) sets_.unite(a, b);
     }
   }
