@@ -7,11 +7,14 @@
 //             to rest;
 //   sediment  the same, but a drag in proportion to the velocity holds them at 0.1 m/s: what a die has of kinetic energy
 //             then lifts it by a twentieth of its size;
+//   damped    the same, but the drag resists the spin as well, as creeping flow does of a ball of equal volume: the couple
+//             over the spin is 4/3 r^2 times the force over the velocity;
+//   walled    poured, but between four side walls in place of the periodic axes, with the same friction;
 //   dense     the floor shakes the poured ones along the vertical, with 25 Hz and an acceleration of 4 g at first, which
 //             falls linearly to 0.
 // The loosest packing was published for dice that were fluidized, the densest one for dice that were vibrated.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
-// between dice is not published: it is varied.
+// between dice is not published: it is varied. Damped and walled change one thing each: controls, with the first friction.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -19,6 +22,7 @@
 #include <map>
 #include <moreau/moreau.hpp>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -91,6 +95,9 @@ double fraction(const World& world, double length) {
 
 constexpr double rest = 0.3, terminal = 0.1;  // [s], of the sediment [m/s]
 
+/// How the dice arrive.
+enum class Arrival { poured, sediment, damped, walled };
+
 struct Sample {
   int faces;
   std::size_t count;
@@ -100,7 +107,8 @@ struct Sample {
   double length() const { return across * size; }
 };
 
-World empty_world(const Sample& sample) {
+/// @param walled bounded by walls in place of the periodic axes; the walls are added after the floor
+World empty_world(const Sample& sample, bool walled) {
   moreau::ColouredOptions options;
   options.tolerance = tolerance;
   options.max_sweeps = 500;
@@ -108,20 +116,31 @@ World empty_world(const Sample& sample) {
   tolerances.margin = 0.1;
   World world(size, moreau::Materials<Law>(1, Law(sample.friction)),
               moreau::ColouredGaussSeidel(options), tolerances);
-  for (const int axis : {0, 1}) world.set_periodic(axis, 0, sample.length());
+  if (!walled)
+    for (const int axis : {0, 1}) world.set_periodic(axis, 0, sample.length());
   world.set_gravity({0, 0, -gravity});
   return world;
+}
+
+/// Force over the velocity [N s/m], couple over the spin [N m s], of a die.
+struct Drag {
+  double force = 0, couple = 0;
+};
+
+void resist(World& world, const Drag& drag) {
+  for (const moreau::BodyId grain : world.grains()) {
+    if (drag.force > 0) world.set_force(grain, -drag.force * world.velocity(grain));
+    if (drag.couple > 0) world.set_torque(grain, -drag.couple * world.spin(grain));
+  }
 }
 
 /// Advances a packing, in pieces if the time of the runner is over.
 /// @param build    fills an empty world
 /// @param h        step [s]
-/// @param drag     force over the velocity of a die [N s/m]
 /// @param velocity of the floor upwards at a time [m/s]
 /// @returns solid fraction and share of steps not solved; then, for each die, position and rotation
-Numbers advance_dice(Run& run, const Sample& sample, double duration, double h, double drag,
-                     const auto& build, const auto& velocity) {
-  World world = empty_world(sample);
+Numbers advance_dice(Run& run, World world, const Sample& sample, double duration, double h,
+                     const Drag& drag, const auto& build, const auto& velocity) {
   Numbers sums{0, 0};  // steps, those not solved
   if (run.is_started())
     moreau::reload_snapshot(run.snapshot(), world, sums);
@@ -130,9 +149,7 @@ Numbers advance_dice(Run& run, const Sample& sample, double duration, double h, 
   const double last = std::round(duration / h);
   while (sums[0] < last) {
     world.set_velocity(world.walls()[0], velocity(sums[0] * h) * Vector::UnitZ());
-    if (drag > 0)
-      for (const moreau::BodyId grain : world.grains())
-        world.set_force(grain, -drag * world.velocity(grain));
+    resist(world, drag);
     sums[1] += !world.step(h).solve.converged;
     ++sums[0];
     if (sums[0] < last && run.must_stop()) {
@@ -149,24 +166,33 @@ Numbers advance_dice(Run& run, const Sample& sample, double duration, double h, 
   return values;
 }
 
-/// @param slowly sediment, else poured
-Numbers loose(Run& run, const Sample& sample, bool slowly) {
+Numbers loose(Run& run, const Sample& sample, Arrival arrival) {
   const Shape shape = die(sample.faces);
   std::mt19937_64 random(sample.seed);
   const std::vector<double> radii(sample.count, moreau::circumradius(shape));
   const auto poses = moreau::random_deposition<S>(radii, sample.length(), random);
   double top = 0;
   for (const moreau::Pose<S>& pose : poses) top = std::max(top, pose.position[2]);
+  const bool walled = arrival == Arrival::walled;
   const auto build = [&](World& world) {
     const auto id = world.add_shape(shape);
     for (const moreau::Pose<S>& pose : poses) world.add_grain(id, pose, density);
     world.add_wall(Vector::UnitZ(), Vector::Zero());
+    if (!walled) return;
+    for (const int axis : {0, 1}) {
+      world.add_wall(Vector::Unit(axis), Vector::Zero());
+      world.add_wall(-Vector::Unit(axis), sample.length() * Vector::Unit(axis));
+    }
   };
+  const bool slowly = arrival == Arrival::sediment || arrival == Arrival::damped;
   // The time in which the highest die falls to the floor, and rest.
   const double fall = slowly ? top / terminal : std::sqrt(2 * top / gravity);
-  const double weight = density * size * size * size * gravity;
-  return advance_dice(run, sample, fall + rest, slowly ? slow_step : step,
-                      slowly ? weight / terminal : 0, build, [](double) { return 0.0; });
+  Drag drag;
+  if (slowly) drag.force = density * size * size * size * gravity / terminal;
+  const double r = size * std::cbrt(3 / (4 * std::numbers::pi));
+  if (arrival == Arrival::damped) drag.couple = 4.0 / 3 * r * r * drag.force;
+  return advance_dice(run, empty_world(sample, walled), sample, fall + rest,
+                      slowly ? slow_step : step, drag, build, [](double) { return 0.0; });
 }
 
 /// @param start what loose() has returned
@@ -186,7 +212,8 @@ Numbers dense(Run& run, const Sample& sample, const Numbers& start) {
     const double share = std::max(0.0, 1 - time / sample.shaking);
     return share * 4 * gravity / rate * std::cos(rate * time);
   };
-  Numbers values = advance_dice(run, sample, sample.shaking + rest, step, 0, build, shaken);
+  Numbers values = advance_dice(run, empty_world(sample, false), sample, sample.shaking + rest,
+                                step, {}, build, shaken);
   values.resize(2);
   return values;
 }
@@ -198,10 +225,29 @@ struct Die {
   double loose, dense;
 };
 
-/// Solid fractions of the samples of one kind of dice.
+/// What is done with dice.
+struct Kind {
+  const char* key;                 ///< in the name of the run
+  const char* figure;              ///< in the table
+  std::optional<Arrival> arrival;  ///< none: poured, then shaken
+  double h;                        ///< step [s]
+  bool compared;                   ///< the published value is of this procedure
+  bool control;                    ///< with the first friction only
+};
+const std::vector<Kind>& all_kinds() {  // the short runs first
+  static const std::vector<Kind> kinds{
+      {"poured", "poured", Arrival::poured, step, false, false},
+      {"sediment", "loosest, as sediment", Arrival::sediment, slow_step, true, false},
+      {"damped", "sediment, spin resisted", Arrival::damped, slow_step, false, true},
+      {"walled", "poured between walls", Arrival::walled, step, false, true},
+      {"dense", "densest", std::nullopt, step, true, false}};
+  return kinds;
+}
+
+/// Solid fractions of the samples of one kind of dice, by the key of what is done with them.
 struct Fractions {
-  Numbers sediment, poured, dense;
-  double seconds_sediment = 0, seconds_poured = 0, seconds_dense = 0;
+  std::map<std::string, Numbers> samples;
+  std::map<std::string, double> seconds;
 };
 
 using All = std::map<std::pair<double, int>, Fractions>;  // friction, faces
@@ -217,33 +263,35 @@ void report(Session& session, const std::vector<Die>& kinds, const Numbers& fric
       row.law = "SignoriniCoulomb, friction " + std::to_string(friction).substr(0, 3);
       row.tolerance = tolerance;
       row.grains = count;
-      const auto add = [&](const char* kind, double h, double published, bool compared,
-                           const Numbers& samples, double seconds) {
-        if (samples.empty()) return;
-        row.figure = std::string(one.name) + ", " + kind + ": solid fraction";
-        row.published = std::to_string(published).substr(0, 4) + " ± 0.01";
-        row.measured = mean_of(samples).value;
-        row.error = mean_of(samples).error;
-        row.samples = samples.size();
-        row.seconds = seconds;
-        row.step = h;
-        row.verdict = !compared ? "" : std::abs(row.measured - published) <= 0.02 ? "yes" : "no";
-        session.row(row);
-      };
       const Fractions& f = found->second;
-      add("loosest, as sediment", slow_step, one.loose, true, f.sediment, f.seconds_sediment);
-      add("poured", step, one.loose, false, f.poured, f.seconds_poured);
-      add("densest", step, one.dense, true, f.dense, f.seconds_dense);
-      const auto mean = [](const Numbers& samples) {
-        return samples.empty() ? std::numeric_limits<double>::quiet_NaN() : mean_of(samples).value;
+      const auto mean = [&](const char* key) {
+        const auto samples = f.samples.find(key);
+        return samples == f.samples.end() ? Mean{std::numeric_limits<double>::quiet_NaN()}
+                                          : mean_of(samples->second);
       };
-      rows.push_back({double(one.faces), friction, mean(f.sediment), one.loose, mean(f.dense),
-                      one.dense, mean(f.poured)});
+      for (const Kind& kind : all_kinds()) {
+        if (!f.samples.contains(kind.key)) continue;
+        const double published = kind.arrival ? one.loose : one.dense;
+        row.figure = std::string(one.name) + ", " + kind.figure + ": solid fraction";
+        row.published = std::to_string(published).substr(0, 4) + " ± 0.01";
+        row.measured = mean(kind.key).value;
+        row.error = mean(kind.key).error;
+        row.samples = f.samples.at(kind.key).size();
+        row.seconds = f.seconds.at(kind.key);
+        row.step = kind.h;
+        row.verdict = !kind.compared                               ? ""
+                      : std::abs(row.measured - published) <= 0.02 ? "yes"
+                                                                   : "no";
+        session.row(row);
+      }
+      rows.push_back({double(one.faces), friction, mean("sediment").value, one.loose,
+                      mean("dense").value, one.dense, mean("poured").value, mean("damped").value,
+                      mean("walled").value});
     }
-  session.curve(
-      "dice",
-      {"faces", "friction", "sediment", "published loose", "dense", "published dense", "poured"},
-      rows);
+  session.curve("dice",
+                {"faces", "friction", "sediment", "published loose", "dense", "published dense",
+                 "poured", "damped", "walled"},
+                rows);
 }
 
 }  // namespace dice_parts
@@ -261,41 +309,36 @@ void dice(Session& session) {
   const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2};
   All all;
   bool paused = false;
-  enum class Kind { poured, sediment, dense };
-  const auto run = [&](Kind kind, std::uint64_t seed) {
+  const auto run = [&](const Kind& kind, std::uint64_t seed) {
     for (const double friction : frictions)
       for (const Die& one : kinds) {
         if (quick && one.faces != 6) continue;
+        if (kind.control && friction != frictions[0]) continue;
         const Sample sample{one.faces, count, across, friction, shaking, seed};
-        const std::string key = std::string(one.name) + " friction " + std::to_string(friction) +
-                                " count " + std::to_string(count) + " seed " + std::to_string(seed);
-        if (!session.wants(key)) continue;
-        Fractions& fractions = all[{friction, one.faces}];
-        const auto add = [&](const Result& result, Numbers& values, double& seconds) {
-          values.push_back(result.values[0]);
-          seconds += result.seconds;
+        const std::string name = std::string(one.name) + " friction " + std::to_string(friction) +
+                                 " count " + std::to_string(count) + " seed " +
+                                 std::to_string(seed) + ' ';
+        if (!session.wants(name + kind.key)) continue;
+        const auto arrive = [&](const char* key, Arrival arrival) {
+          return session.once(name + key,
+                              [&](Run& piece) { return loose(piece, sample, arrival); });
         };
-        if (kind == Kind::sediment) {
-          const Result slow = session.once(key + " sediment",
-                                           [&](Run& piece) { return loose(piece, sample, true); });
-          add(slow, fractions.sediment, fractions.seconds_sediment);
-          continue;
+        Result result;
+        if (kind.arrival) {
+          result = arrive(kind.key, *kind.arrival);
+        } else {
+          const Result start = arrive("poured", Arrival::poured);
+          result = session.once(name + kind.key,
+                                [&](Run& piece) { return dense(piece, sample, start.values); });
         }
-        const Result start =
-            session.once(key + " poured", [&](Run& piece) { return loose(piece, sample, false); });
-        if (kind == Kind::poured) {
-          add(start, fractions.poured, fractions.seconds_poured);
-          continue;
-        }
-        const Result end = session.once(
-            key + " dense", [&](Run& piece) { return dense(piece, sample, start.values); });
-        add(end, fractions.dense, fractions.seconds_dense);
+        Fractions& fractions = all[{friction, one.faces}];
+        fractions.samples[kind.key].push_back(result.values[0]);
+        fractions.seconds[kind.key] += result.seconds;
       }
   };
   try {
-    // The short runs first.
-    for (const Kind kind : {Kind::poured, Kind::sediment, Kind::dense}) {
-      if (quick && kind == Kind::sediment) continue;
+    for (const Kind& kind : all_kinds()) {
+      if (quick && kind.h == slow_step) continue;
       for (std::uint64_t seed = 1; seed <= (quick ? 1u : 3u); ++seed) run(kind, seed);
     }
   } catch (const Paused&) {
