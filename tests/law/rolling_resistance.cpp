@@ -225,3 +225,35 @@ TEST_CASE("the local problem is solved for any friction and any levers") {
   }
   CHECK(worst < 1e-8);
 }
+
+TEST_CASE("float: the local solution of bodies of 1e-6 m to 1e6 m is that of 1 m") {
+  using F = Space<3, float>;
+  RollingBlock<F> block;
+  block.point.normal = 1;
+  block.point.coupling.setZero();
+  block.point.slip = {3.0f, 3.5f};
+  block.cross = F::lever(F::Vector(0.5f * F::Vector::UnitX()));
+  block.spin = 2 * F::Inertia::Identity();
+  const RollingResistance<float> law(0.5f, 0.2f);
+  RollingBlock<F>::Vector b;
+  b << -1, 0.3f, 0.2f, 0.5f, -0.4f, 0.3f;
+  const RollingBlock<F>::Vector none = RollingBlock<F>::Vector::Zero(),
+                                one = law.solve<F>(block, b, none);
+  CHECK(angular<F>(one).norm() == doctest::Approx(0.2f * one[0]).epsilon(1e-5));
+  for (const int power : {-50, -30, 50, 70}) {
+    CAPTURE(power);
+    const float mass = std::ldexp(1.0f, power);
+    RollingBlock<F> other = block;
+    other *= 1 / mass;
+    const RollingBlock<F>::Vector r = law.solve<F>(other, b, none) / mass;
+    CHECK((r - one).norm() < 1e-5f * one.norm());
+    // A block that is not round is doubled, whatever its unit.
+    other.cross(0, 0) += 0.3f / mass;
+    block.cross(0, 0) = 0.3f;
+    LocalBlock<F> of_one = block.point, of_other = other.point;
+    CHECK(detail::round_couple<F>(other, of_other)[1] * mass ==
+          doctest::Approx(detail::round_couple<F>(block, of_one)[1]));
+    CHECK(of_other.normal * mass == of_one.normal);
+    block.cross(0, 0) = 0;
+  }
+}

@@ -197,3 +197,20 @@ TEST_CASE("bad values are named") {
   CHECK(table(moreau::MaterialId(1), moreau::MaterialId(0)).friction() == 0.7);
   CHECK(table(moreau::MaterialId(1), moreau::MaterialId(1)).friction() == 0.3);
 }
+
+TEST_CASE_TEMPLATE("float: impulses of 1e-30 N s and of 1e30 N s lie on the cone or inside of it",
+                   S, Space<2, float>, Space<3, float>) {
+  const SignoriniCoulomb<float> law(0.5f, 0, 0.8f);
+  for (const float unit : {1e-30f, 1e-21f, 1.0f, 1e20f, 1e30f}) {
+    CAPTURE(unit);
+    typename S::Vector impulse = S::Vector::Zero();
+    impulse[0] = unit;
+    impulse[1] = 0.8f * unit;
+    CHECK(law.variant_after(0, impulse) == 1);
+    impulse[1] = 0.79f * unit;
+    CHECK(law.variant_after(0, impulse) == 0);
+    CHECK(law.variant_after(1, impulse) == 1);
+    impulse[1] = -0.49f * unit;
+    CHECK(law.variant_after(1, impulse) == 0);
+  }
+}

@@ -147,6 +147,20 @@ const moreau::Materials<Law> materials(1, Law(Push(0.4), 1e6));
 const moreau::Simulation<moreau::Ball<>, Law> world(1, materials);
 #endif  // springs_with_tangential_restitution
 
+#ifdef attraction_where_gaps_close
+// A law with an attraction, which open contacts have, that claims to act where gaps close alone.
+// expect: a law with springs, bridges or an attraction acts where gaps are open, too
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::Cohesive<> {
+  using Cohesive::Cohesive;
+  using EITHER(ActsWhereGapsClose, AnotherName) = Law;
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law(0.4)));
+#endif  // attraction_where_gaps_close
+
 #ifdef cohesive_bridges
 // Bridges, and an attraction at every contact beside them.
 // expect: Cohesive<Law>: Law has an attraction of its own

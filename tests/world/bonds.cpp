@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
@@ -573,6 +574,24 @@ TEST_CASE("bond: made as the guide shows") {
   simulation.bond_touching(1e-5);  // all pairs whose gap is at most 1e-5 m
   CHECK(simulation.bonds().size() == 1);
   CHECK(simulation.bonds()[0].strength_left == 1);
+}
+
+TEST_CASE("bond: a list of pairs") {
+  Row<Circle, Soft> row(1);
+  const ShapeId disk = row.world.add_shape(Circle(radius));
+  for (int k = 1; k < 5; ++k)
+    row.grains.push_back(row.world.add_grain(disk, Pose<Space<2>>({2 * radius * k, 0}), 1000));
+  const auto& grains = row.grains;
+  using Pairs = std::vector<std::pair<BodyId, BodyId>>;
+  CHECK_THROWS_WITH_AS(row.world.bond(Pairs{{grains[0], grains[1]}, {grains[1], grains[3]}}),
+                       doctest::Contains("Simulation::bond: b = 3 must be within the margin of a"),
+                       std::invalid_argument);
+  CHECK(row.world.bonds().empty());
+  CHECK(row.world.bond(Pairs{{grains[3], grains[2]}, {grains[0], grains[1]}}) == 2);
+  CHECK(row.world.bond(Pairs{{grains[0], grains[1]}, {grains[3], grains[4]}}) == 1);
+  CHECK(row.world.bond(Pairs{}) == 0);
+  CHECK(row.world.bonds().size() == 3);
+  CHECK(row.world.bonds()[1].a == grains[2]);
 }
 
 TEST_CASE_TEMPLATE("bond: files for ParaView have the bonds and the cell", ShapeT, Circle, Globe) {

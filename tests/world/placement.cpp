@@ -83,6 +83,9 @@ TEST_CASE_TEMPLATE("a grain inside a floor is named, and moves by at most the la
         }
         const double time = world.time();
         const auto start = world.pose(grain).position;
+        scenes::World<ShapeT> read(size, world.materials());
+        restore_snapshot(snapshot(world), read);
+        CHECK(has(message_of([&] { read.step(h); }), "overlap of grain 1 and wall 0"));
         for (int trial = 0; trial < 2; ++trial) {  // it is refused until it is mended
           const std::string message = message_of([&] { world.step(h); });
           CAPTURE(message);
@@ -186,4 +189,38 @@ TEST_CASE_TEMPLATE("grains that start inside one another are not thrown", ShapeT
   }
   CHECK(fastest < 1);
   CHECK(farthest < 0.03 * size);
+}
+
+TEST_CASE_TEMPLATE("a step that is refused deforms no cell", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Matrix = typename S::Matrix;
+  Sunk<ShapeT> scene(0);
+  scenes::World<ShapeT> world(size, scene.world.materials());
+  const ShapeId shape = world.add_shape(scene.shape);
+  const BodyId one = world.add_grain(shape, Pose<S>(Vector(0.05 * Vector::Ones())), 2700),
+               two = world.add_grain(shape, Pose<S>(Vector(0.15 * Vector::Ones())), 2700);
+  world.set_cell(0.2 * Matrix::Identity());
+  CellControl<S> control;
+  control.rate(0, 1) = 3, control.rate(0, 0) = -2;
+  world.control_cell(control);
+  for (int k = 0; k < 3; ++k) world.step(h);
+  scenes::World<ShapeT> copy(size, world.materials());
+  restore_snapshot(snapshot(world), copy);
+  CHECK(copy.cell_motion().volume() == world.cell_motion().volume());
+  const Pose<S> aside = world.pose(two);
+  world.set_pose(two, Pose<S>(Vector(world.pose(one).position + 1e-3 * Vector::Ones())));
+  const Matrix vectors = world.cell().vectors(), deformation = world.cell_motion().deformation();
+  const Vector place = world.pose(one).position;
+  for (int trial = 0; trial < 3; ++trial) {
+    CHECK(has(message_of([&] { world.step(h); }), "overlap of grain 0 and grain 1"));
+    CHECK(world.cell_motion().deformation() == deformation);
+    CHECK((world.cell().vectors() - vectors).norm() < 1e-14 * vectors.norm());
+    CHECK(world.pose(one).position == place);
+  }
+  world.set_pose(two, aside);
+  for (int k = 0; k < 3; ++k) world.step(h), copy.step(h);
+  CHECK((world.cell().vectors() - copy.cell().vectors()).norm() < 1e-14 * vectors.norm());
+  CHECK((world.pose(one).position - copy.pose(one).position).norm() < 1e-14);
 }

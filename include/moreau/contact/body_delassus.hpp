@@ -312,7 +312,7 @@ class BodyDelassus {
           typename S::Angular couple = angular<S>(row);
           if (back)
             couple *= points_[c].radius;
-          else
+          else if (points_[c].radius > 0)
             couple /= points_[c].radius;
           angular<S>(row) = couple;
         }

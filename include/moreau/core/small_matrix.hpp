@@ -125,13 +125,19 @@ T largest_row_sum(const Eigen::Matrix<T, N, N>& m) {
   return largest;
 }
 
+/// A power of two near 1 / |x|: products with it are exact. Divided by their size so, squares of quantities with a mass are
+/// numbers in single precision for bodies of 1e-6 m to 1e6 m.
+template <class T>
+T reciprocal_power(T x) {
+  constexpr int most = std::numeric_limits<T>::max_exponent - 2;
+  return std::ldexp(T(1), -std::clamp(std::ilogb(x), -most, most));
+}
+
 /// The inverse of a matrix with positive trace, such as an inertia. The determinant is that of a matrix near 1, so
 /// that it neither underflows nor overflows for small and large bodies.
 template <class Matrix>
 [[gnu::noinline]] Matrix inverse_of(const Matrix& m) {
-  using T = typename Matrix::Scalar;
-  constexpr int most = std::numeric_limits<T>::max_exponent - 2;
-  const T scale = std::ldexp(T(1), -std::clamp(std::ilogb(m.trace()), -most, most));  // exact
+  const typename Matrix::Scalar scale = reciprocal_power(m.trace());
   const Matrix scaled = m * scale, inverse = scaled.inverse();
   return inverse * scale;
 }

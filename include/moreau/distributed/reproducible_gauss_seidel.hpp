@@ -136,7 +136,7 @@ class OrderedSweeps {
     impulses_[c] = solved(c, guess, heavier);
     const Vector change = impulses_[c] - guess;
     if (change.isZero(0)) return;
-    change2.add(double(change.squaredNorm()));
+    change2.add(change.template cast<double>().squaredNorm());
     apply_impulse(c, change);
   }
   double total(ExactSum& sum) const {
@@ -257,7 +257,7 @@ class ReproducibleGaussSeidel {
                     const Workspace<Operator, Law>&) const {
     using T = typename Operator::Scalar;
     SolveReport report;
-    detail::drop_if_not_finite(impulses, sharing_.get());
+    detail::drop_if_not_finite(impulses);
     detail::OrderedSweeps<Operator, Law> sweeps(problem, impulses, sharing_.get());
     sweeps.load_velocities();
     if (sweeps.count() == 0) return report;

@@ -27,8 +27,8 @@ template <class L, class S>
 using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 
 /// A law between the relative velocity u and the impulse r of one contact, for one pair of
-/// materials. u and r are in the frame of the contact, normal first; u_n > 0 separates, r_n > 0
-/// pushes.
+/// materials. u and r are rows of the operator: along the normal, then along the tangents that its block chooses
+/// (BodyDelassus::frame()); u_n > 0 separates, r_n > 0 pushes.
 ///
 /// - velocity_offset(gap, before, h): the offset [m/s] in 0 <= u_n + offset _|_ r_n >= 0. gap [m],
 ///   before = u_n before the step [m/s], h the step [s]. Infinite if the contact cannot act in this
@@ -149,7 +149,7 @@ concept Attracts = requires {
 ///
 /// - variants: number of its variants; variant(k), k < variants: the law of a step. A new contact has k = 0.
 /// - variant_after(k, impulse): the k of the next step, from the k of this step and the impulse that
-///   solves variant(k) [N s], in the frame of the contact
+///   solves variant(k) [N s], a row of the operator as in solve()
 template <class L, class S>
 concept StatefulLaw = SetValuedLaw<L, S> &&
     requires(const L law, typename S::Vector impulse, std::size_t k) {

@@ -57,13 +57,14 @@ class Materials {
   }
 
   friend struct SerializationAccess;
+  Materials() = default;
   auto serialized_members() { return std::tie(count_, laws_); }
   void deserialized() const {
     require(count_ > 0 && laws_.size() / count_ == count_ && laws_.size() % count_ == 0,
             "Materials", "count", count_, "must be > 0, with a law for every pair");
   }
 
-  std::size_t count_;  ///< number of materials
+  std::size_t count_ = 0;  ///< number of materials
   std::vector<Law> laws_;
 };
 

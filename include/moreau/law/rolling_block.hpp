@@ -84,9 +84,10 @@ std::array<typename S::Scalar, 2> round_couple(const RollingBlock<S>& w, LocalBl
   const Cross form = S::lever(typename S::Vector(S::Vector::Unit(0)));
   Scalar cross = form.cwiseProduct(w.cross).sum() / form.squaredNorm();
   Scalar spin = w.spin.trace() / S::angular_dim;
-  const Scalar aside =
-      (w.cross - cross * form).norm() + (w.spin - spin * S::Inertia::Identity()).norm();
-  if (!(aside <= std::sqrt(std::numeric_limits<Scalar>::epsilon()) * w.trace())) {
+  // In double precision: squares of the entries of large bodies are zero in single precision.
+  const double aside = (w.cross - cross * form).template cast<double>().norm() +
+                       (w.spin - spin * S::Inertia::Identity()).template cast<double>().norm();
+  if (!(aside <= double(std::sqrt(std::numeric_limits<Scalar>::epsilon()) * w.trace()))) {
     point *= 2;
     cross = 0;
     spin = 2 * w.spin.cwiseAbs().rowwise().sum().maxCoeff();

@@ -12,8 +12,6 @@
 // solved in turn, each exactly with the impulse of the other held, until nothing changes.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +21,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/detail/rolling_lanes.hpp"
 #include "moreau/law/rolling_block.hpp"
@@ -44,7 +43,7 @@ Vector solve_disc(const Matrix& q, const Vector& c, T limit) {
   T beta = 0;
   Vector m = Vector::Zero();
   for (int iteration = 0; iteration < 50; ++iteration) {
-    const Matrix inverse = (q + beta * Matrix::Identity()).inverse();
+    const Matrix inverse = inverse_of(Matrix(q + beta * Matrix::Identity()));
     m = -(inverse * load);
     const T length = m.norm(), excess = length - 1;
     if (excess <= (beta > 0 ? 4 * epsilon : T(0))) break;
@@ -100,10 +99,13 @@ class RollingResistance {
                                          const typename RollingBlock<S>::Vector& guess) const {
     using Vector = typename RollingBlock<S>::Vector;
     if (b[0] >= T(0)) return Vector::Zero();
-    // In units of the velocity: squares of small velocities would underflow.
-    const T unit = b.cwiseAbs().maxCoeff();
-    const Vector start = guess / unit;
-    return unit * solve_unit<S>(block, b / unit, start.allFinite() ? start : Vector::Zero());
+    // In units of the velocity and of the block: squares of small velocities and of small and large impulses are no numbers.
+    const T unit = b.cwiseAbs().maxCoeff(), mass = reciprocal_power(block.trace());
+    RollingBlock<S> scaled = block;
+    scaled *= mass;
+    const Vector start = guess / mass / unit;
+    const Vector r = solve_unit<S>(scaled, b / unit, start.allFinite() ? start : Vector::Zero());
+    return unit * Vector(mass * r);
   }
 
   /// See LaneLaw: the friction and the coefficient of rolling resistance [-].
@@ -158,7 +160,7 @@ class RollingResistance {
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(point_, rolling_); }
 
-  /// solve() for b whose largest entry is 1.
+  /// solve() for b whose largest entry is 1 and a block whose trace is near 1.
   template <class S>
   typename RollingBlock<S>::Vector solve_unit(const RollingBlock<S>& block,
                                               const typename RollingBlock<S>::Vector& b,

@@ -105,9 +105,10 @@ class SignoriniCoulomb {
   template <class Vector>
   std::size_t variant_after(std::size_t k, const Vector& impulse) const {
     if (static_ == friction_ || !(impulse[0] > T(0))) return 0;
-    const T length = impulse.template tail<Vector::RowsAtCompileTime - 1>().norm();
-    const T limit = (k == 0 ? static_ : friction_) * impulse[0];
-    return length >= limit * (T(1) - std::sqrt(std::numeric_limits<T>::epsilon())) ? 1 : 0;
+    // Relative to the normal impulse: squares of small and of large impulses are no numbers.
+    const T share = (impulse.template tail<Vector::RowsAtCompileTime - 1>() / impulse[0]).norm();
+    const T limit = k == 0 ? static_ : friction_;
+    return share >= limit * (T(1) - std::sqrt(std::numeric_limits<T>::epsilon())) ? 1 : 0;
   }
 
   /// See StaticFrictionLaw.

@@ -28,11 +28,13 @@ namespace detail {
 
 /// spin_after() for large rotations: Newton's method with a derivative by differences, whose steps are
 /// halved until the error falls.
+/// @param momentum in units of the inertia, L times `unit`
+/// @param unit     reciprocal_power() of the trace of the inertia
 /// @returns the value with the least error of those that were tried
 template <class S>
 [[gnu::cold, gnu::noinline]] typename S::Angular spin_after_large(
     const Bodies<S>& bodies, std::size_t i, const typename S::Angular& momentum,
-    const typename S::Angular& start, typename S::Scalar h) {
+    const typename S::Angular& start, typename S::Scalar h, typename S::Scalar unit) {
   using Scalar = typename S::Scalar;
   using Angular = typename S::Angular;
   constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
@@ -46,8 +48,8 @@ template <class S>
     for (int k = S::angular_dim; k >= 0; --k) {
       Angular w = best - change;
       if (k < S::angular_dim) w[k] += step;
-      Angular other = product(bodies.inertia(i, S::exp(h * w) * bodies.pose[i].rotation), w);
-      other -= momentum;
+      const Angular other =
+          unit * product(bodies.inertia(i, S::exp(h * w) * bodies.pose[i].rotation), w) - momentum;
       if (k < S::angular_dim)
         jacobian.col(k) = (other - error) / step;
       else
@@ -80,12 +82,15 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& start, typename S::Scalar h) {
   using Scalar = typename S::Scalar;
   const typename S::Rotation& q = bodies.pose[i].rotation;
-  const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * momentum.norm();
+  // In units of the inertia: squares of momenta of small and of large bodies would be no numbers.
+  const Scalar unit = reciprocal_power(bodies.inertia_body[i].trace());
+  const typename S::Angular scaled = unit * momentum;
+  const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * scaled.norm();
   typename S::Angular w = start;
   for (int iteration = 0; iteration < 10; ++iteration) {
-    const typename S::Inertia inertia = bodies.inertia(i, S::exp(h * w) * q);
+    const typename S::Inertia inertia = unit * bodies.inertia(i, S::exp(h * w) * q);
     typename S::Angular error = product(inertia, w);
-    error -= momentum;
+    error -= scaled;
     // After some steps the error may stay at a few rounding errors.
     if (error.norm() <= (iteration < 6 ? 2 : 16) * rounding) return w;
     typename S::Inertia jacobian = S::angular_momentum_jacobian(inertia, w);
@@ -94,7 +99,7 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
     const typename S::Inertia inverse = inverse_of(jacobian);
     w -= product(inverse, error);
   }
-  return detail::spin_after_large<S>(bodies, i, momentum, start, h);
+  return detail::spin_after_large<S>(bodies, i, scaled, start, h, unit);
 }
 
 /// The change of velocity h M^-1 f of body i, world axes [m/s], by the forces f on its centre of mass:

@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
@@ -118,7 +119,7 @@ class ColouredGaussSeidel {
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace, bool again = false) const {
     if (!again) workspace.sweeps.forget();
-    detail::drop_if_not_finite(impulses, shared_.get());
+    detail::drop_if_not_finite(impulses);
     if constexpr (CoulombLaw<Law, typename Operator::Space>)
       if (options_.islands && !shared_ && !problem.delassus.has_cell())
         return solve_with_islands(problem, impulses, workspace);
@@ -246,7 +247,7 @@ class ColouredGaussSeidel {
       if (change < improvement * least) {
         least = change;
         sweeps.save(team_);
-      } else if (!(change < divergence * least)) {
+      } else if (!(change < divergence * least) && !(least == 0 && std::isfinite(change))) {
         sweeps.restore(team_);
       }
     }

@@ -89,15 +89,11 @@ void set_impulses(Operator& delassus, std::span<const typename Operator::Vector>
   if (shared) shared->average(delassus.velocity_changes(), Operator::width);
 }
 
-/// Sets the warm start to zero if the square of an impulse is not finite, in any process.
+/// Sets impulses to zero whose squares are not finite.
 template <class Vector>
-void drop_if_not_finite(std::span<Vector> impulses, SharedBodies* shared = nullptr) {
-  const auto is_usable = [](const Vector& r) {
-    return std::isfinite(r.template cast<double>().squaredNorm());
-  };
-  const bool all_usable = std::all_of(impulses.begin(), impulses.end(), is_usable);
-  if (sum_over(shared, all_usable ? 0 : 1) > 0)
-    std::fill(impulses.begin(), impulses.end(), Vector::Zero());
+void drop_if_not_finite(std::span<Vector> impulses) {
+  for (Vector& impulse : impulses)
+    if (!std::isfinite(impulse.template cast<double>().squaredNorm())) impulse.setZero();
 }
 
 }  // namespace detail

@@ -9,9 +9,9 @@
 // ACM Trans. Graph. 31 (2012) 105). The fixed point does not change.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <cstddef>
+
+#include "moreau/core/small_matrix.hpp"
 
 namespace moreau::detail {
 
@@ -21,7 +21,7 @@ template <class Operator>
 typename Operator::Scalar share_of_hub(const Operator& op, std::size_t c, bool hub_is_a) {
   using Matrix = typename Operator::Matrix;
   const Matrix of_hub = hub_is_a ? op.block_of_a(c) : op.block_of_b(c);
-  const Matrix inverse = op.block(c).matrix().inverse();
+  const Matrix inverse = inverse_of(Matrix(op.block(c).matrix()));
   return inverse.cwiseProduct(of_hub).sum();
 }
 

@@ -102,9 +102,9 @@ struct ResidualSums {
     norm = 0, approach = problem.bonds.velocity2;
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       typename Operator::Vector load = impulses[c];
-      pushes += double(load.squaredNorm());
+      pushes += load.template cast<double>().squaredNorm();
       load[0] -= pulls[c];
-      norm += double(load.squaredNorm());
+      norm += load.template cast<double>().squaredNorm();
       if (pulls[c] != 0) continue;
       const double free = std::min(0.0, double(problem.delassus.free_velocity(c)[0]));
       approach += free * free;

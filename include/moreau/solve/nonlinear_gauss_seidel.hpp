@@ -133,8 +133,9 @@ class NonlinearGaussSeidel {
       }
       if (impulses[c].isZero(0)) continue;
       const Vector dv = block * change, wr = block * impulses[c];
-      sum.add(double(dv.squaredNorm()), double(impulses[c].squaredNorm()), double(wr.squaredNorm()),
-              double(impulses[c].dot(wr)));
+      const auto r = impulses[c].template cast<double>().eval();  // squares of impulses overflow
+      sum.add(double(dv.squaredNorm()), r.squaredNorm(), double(wr.squaredNorm()),
+              r.dot(wr.template cast<double>()));
     }
     sum.write(report);
   }

@@ -100,11 +100,10 @@ BondPlace<S> place_of(const Bond<S>& bond, const Bodies<S>& bodies,
   place.stretch = between + at_b - at_a;
   place.turn = rotation_between<S>(of_a, of_b);
   place.frame = S::exp(place.turn / 2).toRotationMatrix() * of_a;
-  // The difference of two near positions is exact, but not in a periodic cell.
-  const bool is_shifted = !shift.isZero(0);
-  place.rounding = std::numeric_limits<typename S::Scalar>::epsilon() *
-                   (at_a.norm() + at_b.norm() +
-                    (is_shifted ? b.position.norm() + shift.norm() : typename S::Scalar(0)));
+  // Positions are multiples of their rounding: no motion makes the stretch smaller.
+  place.rounding =
+      std::numeric_limits<typename S::Scalar>::epsilon() *
+      (at_a.norm() + at_b.norm() + a.position.norm() + b.position.norm() + shift.norm());
   place.middle_a = at_a + place.stretch / 2;
   place.middle_b = at_b - place.stretch / 2;
   return place;

@@ -54,9 +54,16 @@ class CellMotion {
   /// @param step     h [s]
   /// @param theta    part of the step that comes after detection [-]
   void begin(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Team& team) {
+    before_ = deformation_;
     if (!rate_.isZero(0)) {
       deform(bodies, detector, inverse_of(identity_minus((1 - theta) * step, rate_)), team);
     }
+    volume_ = detector.cell().volume();
+  }
+  /// Undoes begin(), but for the positions of the bodies; the vectors of the cell get back their values to rounding.
+  MOREAU_COLD void undo_begin(auto& detector, Scalar step, Scalar theta) {
+    deformation_ = before_;
+    if (!rate_.isZero(0)) detector.deform_cell(identity_minus((1 - theta) * step, rate_));
     volume_ = detector.cell().volume();
   }
   /// For Simulation, after the contact problem: stores rate and stress, and deforms the cell.
@@ -71,7 +78,7 @@ class CellMotion {
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(control_, rate_, stress_, deformation_); }
+  auto serialized_members() { return std::tie(control_, rate_, stress_, deformation_, volume_); }
   void deserialized() {
     control_.check("CellMotion");
     require(all_finite(rate_) && all_finite(stress_) && all_finite(deformation_), "CellMotion",
@@ -92,6 +99,7 @@ class CellMotion {
 
   CellControl<S> control_;
   Matrix rate_ = Matrix::Zero(), stress_ = Matrix::Zero(), deformation_ = Matrix::Identity();
+  Matrix before_ = Matrix::Identity();  // deformation_ before the step
   Scalar volume_ = 0;
 };
 

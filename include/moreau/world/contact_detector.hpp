@@ -102,6 +102,7 @@ class ContactDetector {
   /// @param shape_of k -> shape of grain k, in the order of their bodies
   template <class ShapeOf>
   void place(std::span<const Pose<S>> poses, ShapeOf&& shape_of) {
+    if (!late_.empty()) insert_late();
     boxes_.resize(grains_.size());
     team_.share(grains_.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -165,7 +166,7 @@ class ContactDetector {
   /// @throws std::invalid_argument if a pair is not of these grains
   void rebuild(auto&& add_all) {
     const bool stale = near_.is_stale();
-    grains_.clear(), walls_.clear(), cylinders_.clear(), meshes_.clear();
+    grains_.clear(), late_.clear(), walls_.clear(), cylinders_.clear(), meshes_.clear();
     widest_ = 0;
     add_all();
     near_.set_stale(stale);
@@ -184,9 +185,14 @@ class ContactDetector {
   }
 
  private:
+  /// Puts the grains of late_ to their places among the others, all at once.
+  void insert_late();
   friend struct SerializationAccess;
   friend struct detail::StateAccess;
-  auto serialized_members() { return near_.serialized_members_with(kept_points_); }
+  auto serialized_members() {
+    if (!late_.empty()) insert_late();  // pairs are of the numbers of grains
+    return near_.serialized_members_with(kept_points_);
+  }
 
   static constexpr bool prefetches = requires(Placed<ShapeT> s) { s.prefetch_contact(); };
 
@@ -260,6 +266,7 @@ class ContactDetector {
                                       const detail::PreviousContacts<S>& previous, Member& found);
 
   std::vector<Grain> grains_;         // ascending by body
+  std::vector<Grain> late_;           // further ones, which have the indices of removed grains
   std::vector<Grain> spare_;          // of removed grains; what they have allocated is used again
   List<std::uint32_t> number_after_;  // of each grain, in remove_grains()
   std::vector<Wall<HalfSpace<S>>> walls_;

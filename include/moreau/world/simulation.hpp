@@ -242,6 +242,7 @@ class Simulation : public BodyControl<ShapeT> {
         throw;
       }
     }
+    if constexpr (set_valued) dynamics_.keep_materials(before);
     assembly_.set_changed();
   }
 
@@ -255,6 +256,11 @@ class Simulation : public BodyControl<ShapeT> {
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
   ///         or that both have a prescribed motion
   void bond(BodyId a, BodyId b) requires BondingLaw<Law, SpaceOf<ShapeT>>;
+  /// Bonds each of these pairs, with one detection of all contacts.
+  /// @returns how many bonds were made: pairs that have one keep it
+  /// @throws std::invalid_argument as the function for one pair; no bond is made then
+  std::size_t bond(std::span<const std::pair<BodyId, BodyId>> pairs) requires
+      BondingLaw<Law, SpaceOf<ShapeT>>;
   /// All bonds, sorted by their bodies. The span is valid until bonds are made or break.
   std::span<const Bond<S>> bonds() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
     return dynamics_.bonds().bonds();
@@ -330,8 +336,8 @@ class Simulation : public BodyControl<ShapeT> {
     if constexpr (bonding)
       require(dynamics_.bonds().are_valid(bodies()), "Simulation", "bonds", bonds().size(),
               "must be of bodies that exist");
-    require(dynamics_.is_valid(contacts_.size()), "Simulation", "contacts", contacts_.size(),
-            "must be as many as the laws have memories");
+    require(dynamics_.is_valid(contacts_.size(), bodies().size()), "Simulation", "contacts",
+            contacts_.size(), "must be as many as the laws have memories");
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 

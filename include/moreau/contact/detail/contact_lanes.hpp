@@ -171,14 +171,29 @@ class ContactLanes {
     for (std::size_t i = 0; i < dim; ++i)
       w[Algebra::entry(i, i)] += varies ? Values{} : side.linear[0];
     if (!Lanes::any(varies)) return;
+    add_uneven_mass(side.linear, varies, w);
+  }
+  /// Adds F^T (1/m) F in some lanes. What is left by rounding of an axis across which the body is pushed counts as zero.
+  void add_uneven_mass(const typename Algebra::template Symmetric<dim>& linear,
+                       const typename Lanes::Indices& varies,
+                       typename Algebra::template Symmetric<dim>& w) const {
+    constexpr T rounding = 64 * std::numeric_limits<T>::epsilon();
+    typename Algebra::template Symmetric<dim> turned{};
+    Values least = linear[0];
     for (std::size_t i = 0; i < dim; ++i) {
-      const Vector push = Algebra::template product<dim>(side.linear, axes_[i]);
-      for (std::size_t k = 0; k <= i; ++k) {
-        Values sum{};
-        for (std::size_t d = 0; d < dim; ++d) sum += push[d] * axes_[k][d];
-        w[Algebra::entry(i, k)] += varies ? sum : Values{};
-      }
+      const Vector push = Algebra::template product<dim>(linear, axes_[i]);
+      for (std::size_t k = 0; k <= i; ++k)
+        for (std::size_t d = 0; d < dim; ++d) turned[Algebra::entry(i, k)] += push[d] * axes_[k][d];
+      const Values& mass = linear[Algebra::entry(i, i)];
+      least = mass > least ? mass : least;
     }
+    least *= rounding;
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k <= i; ++k) {
+        const typename Lanes::Indices counts = varies & (turned[Algebra::entry(i, i)] > least) &
+                                               (turned[Algebra::entry(k, k)] > least);
+        w[Algebra::entry(i, k)] += counts ? turned[Algebra::entry(i, k)] : Values{};
+      }
   }
   /// Lanes in which a mass is not the same along all axes, as that of a wall that moves along its normal.
   static typename Lanes::Indices varying(const typename Algebra::template Symmetric<dim>& linear) {

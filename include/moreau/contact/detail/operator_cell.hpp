@@ -76,7 +76,7 @@ class OperatorCell {
     for (std::size_t c = 0; c < points.size(); ++c) {
       Scalar& factor = factors_[c];
       if (up) {
-        const typename Point::Matrix inverse = points[c].block.matrix().inverse();
+        const typename Point::Matrix inverse = inverse_of(points[c].block.matrix());
         Scalar trace = 0;
         for (int k = 0; k < S::dim; ++k) trace += inverse(k, k);
         factor = 1 + response_.maxCoeff() * branch(points[c]).norm() * sum * trace;

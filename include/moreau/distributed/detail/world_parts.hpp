@@ -163,8 +163,12 @@ struct WorldParts {
   void finish() {
     forget_pairs();
     shifts().assign(bodies().size(), S::Twist::Zero());
+    assembly().forget_placed();
     SerializationAccess::deserialized(assembly());
-    if constexpr (has_springs) SerializationAccess::deserialized(springs());
+    if constexpr (has_springs) {
+      springs().forget_velocities();  // the bodies have other numbers
+      SerializationAccess::deserialized(springs());
+    }
     SerializationAccess::deserialized(world);
   }
 };

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "moreau/law/detail/coulomb_lanes.hpp"
 #include "moreau/law/rolling_block.hpp"
@@ -52,11 +53,12 @@ class RollingLanes {
     for (std::size_t d = 0; d < S::dim; ++d) r[d] = impulse[Index(d)];
     Couple couple = Algebra::moment_of_normal(Block::linear(r));
     Values length2{};
+    const Values unit = unit_of(block);
     for (std::size_t k = 0; k < couples; ++k) {
       couple[k] = -(b[S::dim + k] + block.cross * couple[k]) * block.inverse_spin;
-      length2 += couple[k] * couple[k];
+      length2 += (unit * couple[k]) * (unit * couple[k]);
     }
-    const Values limit = rolling * r[0];
+    const Values limit = unit * (rolling * r[0]);
     const Indices acts = b[0] < zero, beyond = acts & (length2 > limit * limit);
     memory[1] = beyond ? one : zero;
     Values scale = acts ? one : zero;
@@ -73,6 +75,13 @@ class RollingLanes {
   using Index = typename Block::Index;
   static constexpr std::size_t couples = S::angular_dim;
 
+  /// What couples are multiplied by before they are squared, see CoulombLanes: 1, and q in single precision.
+  static Values unit_of(const Block& block) {
+    if constexpr (std::is_same_v<typename S::Scalar, double>)
+      return Lanes::broadcast(1);
+    else
+      return block.spin;
+  }
   static Point point_of(const Block& block, const Indices& rolls) {
     Point point = block.point;
     for (Index t = 0; t < Point::tangents; ++t) {

@@ -45,6 +45,7 @@ class ColouredSweeps {
       all_.assign(kernel_.groups(), [&](std::uint32_t k) { return kernel_.groups()[k].count; });
       is_packed_ = true;
     }
+    if constexpr (!Kernel::is_fine) kernel_.set_unit(mean_diagonal(problem.delassus, shared));
     find_velocities(team);
     kernel_.end_packing();
     kernel_.give_velocities(problem.delassus, impulses, team, shared);

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/coloured/contact_groups.hpp"
 #include "moreau/solve/coloured/lane_cell.hpp"
@@ -35,6 +37,8 @@ class GroupKernel {
   using Vector = typename LaneBlock<S>::Vector;
   using Row = typename Groups::Points::Row;
   static constexpr std::size_t rows = Groups::rows_of_point;  ///< of a contact
+  static constexpr bool is_fine =
+      std::is_same_v<T, double>;  ///< whether squares of impulses are numbers
   using Impulse = typename Operator::Vector;
   using Group = typename Groups::Group;
   using Points = typename Groups::Points;
@@ -62,6 +66,8 @@ class GroupKernel {
     contacts_.refill(problem, impulses, team);
     changes_.assign(contacts_.groups.size(), Values{});
   }
+  /// Before the sweeps of a problem: a power of two near the velocity [m/s] that an impulse [N s] makes.
+  void set_unit(double velocity) requires(!is_fine) { unit_ = reciprocal_power(T(1 / velocity)); }
   /// Sets the velocities of the bodies and of the cell to zero: apply() of all groups and end_sweep() then compute them
   /// from the impulses of the points alone.
   void begin_from_zero() {
@@ -337,7 +343,8 @@ class GroupKernel {
       Row change;
       for (std::size_t d = 0; d < rows; ++d) {
         change[d] = impulse[d] - guess[d];
-        change2 += change[d] * change[d];
+        const Values counted = scaled(change[d]);
+        change2 += counted * counted;
         point.before[d] = point.impulse[d];
         point.impulse[d] = impulse[d];
       }
@@ -357,15 +364,24 @@ class GroupKernel {
     }
     velocity_.scatter(group, a, b);
   }
-  static void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
-                      const Row& impulse) {
+  /// What is squared of an impulse, for sums of which only ratios count: in single precision a multiple of it, because
+  /// squares of impulses of grains of 1e-6 m or 1e4 m are no numbers.
+  Values scaled(const Values& impulse) const {
+    if constexpr (is_fine)
+      return impulse;
+    else
+      return impulse * unit_;
+  }
+  void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
+               const Row& impulse) const {
     const Row dv = block * change, wr = block * impulse;
     Values dv2{}, r2{}, wr2{}, rwr{};
     for (std::size_t d = 0; d < rows; ++d) {
+      const Values counted = scaled(impulse[d]);
       dv2 += dv[d] * dv[d];
-      r2 += impulse[d] * impulse[d];
+      r2 += counted * counted;
       wr2 += wr[d] * wr[d];
-      rwr += impulse[d] * wr[d];
+      rwr += counted * wr[d];
     }
     for (int l = 0; l < Lanes::lanes; ++l)
       sum.add(double(dv2[l]), double(r2[l]), double(wr2[l]), double(rwr[l]));
@@ -375,6 +391,7 @@ class GroupKernel {
   Source source_;
   LaneCell<Operator, Points> cell_;
   LaneVelocities<S, Lanes> velocity_;
+  T unit_ = 1;               // of squared impulses, see scaled()
   bool is_large_ = false;    // whether velocities are loaded ahead
   bool has_extras_ = false;  // whether a visit begins with more than loading its bodies
   // One entry per group.

@@ -141,6 +141,11 @@ class Assembly {
   void note_all_placed() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) note_placed(i);
   }
+  /// The bodies are those after a step.
+  void forget_placed() {
+    placed_.clear();
+    any_placed_ = false;
+  }
   void allow_overlaps(bool allow) { overlaps_allowed_ = allow; }
   /// Keeps the poses before a step moves bodies, if bodies were placed.
   /// @param step length of the step [s]
@@ -149,9 +154,11 @@ class Assembly {
     if (any_placed_) kept_poses_ = bodies_.pose;
   }
   /// Checks the contacts of bodies that were placed since the last step.
+  /// @param undo function: undoes what the step has changed so far but for the poses
   /// @throws std::invalid_argument for an overlap deeper than half of the smallest width of a grain
   ///         of the contact, unless overlaps are allowed; the poses are then those before the step
-  void require_no_deep_overlap(const DetectedContacts<S>& contacts, const char* function) {
+  void require_no_deep_overlap(const DetectedContacts<S>& contacts, const char* function,
+                               const auto& undo) {
     if (!any_placed_) return;
     placed_.resize(bodies_.size());
     for (const Contact<S>& contact : contacts.points) {
@@ -163,6 +170,7 @@ class Assembly {
       // The prediction has moved the bodies by less than this.
       if (-contact.gap <= most + std::max(Scalar(0), -speed * step_)) continue;
       bodies_.pose = kept_poses_;
+      undo();
       throw_deep_overlap(contact, most, function);
     }
     placed_.assign(bodies_.size(), 0);
@@ -277,11 +285,11 @@ class Assembly {
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;
   auto serialized_members() {
-    return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_, changed_);
+    return std::tie(shapes_, grains_, walls_, cylinders_, meshes_, bodies_, changed_, placed_,
+                    any_placed_, overlaps_allowed_);
   }
   void deserialized() {
-    placed_.clear();  // what was read is the state after a step
-    any_placed_ = false;
+    placed_.resize(bodies_.size());
     grain_ids_.clear();
     for (const Grain& grain : grains_) grain_ids_.push_back(grain.body);
     free_.clear();

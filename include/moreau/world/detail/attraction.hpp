@@ -15,14 +15,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/list.hpp"
+#include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
+#include "moreau/law/materials.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/shared_bodies.hpp"
@@ -112,12 +116,18 @@ class Attraction {
       return context.previous;
     } else {
       pushes_ = context.previous;
-      attractions(context.bodies, context.materials, pushes_, pulls_before_);
+      attractions(context.bodies, replaced_.empty() ? context.materials : replaced_[0], pushes_,
+                  pulls_before_);
       for (std::size_t c = 0; c < pushes_.size(); ++c)
         pushes_.impulses[c][0] += last_step * pulls_before_[c];
       return pushes_;
     }
   }
+  /// The materials of the step before, which a user replaces.
+  void keep(const Materials<Law>& materials) {
+    if (replaced_.empty()) replaced_.push_back(materials);
+  }
+  void end_step() { replaced_.clear(); }
   /// Finds the changes of velocity by the impulses on b of the contacts, after take_from(). Their sums for a body are
   /// those of double precision: impulses of h T can cancel in these, too, as the forces inside of a cohesive cluster.
   /// @param op     the operator of the contacts, which stays as it is
@@ -171,12 +181,16 @@ class Attraction {
     angular<S>(free) += root.angular * (root.angular * S::moment(lever, pull));
   }
 
-  List<Scalar> pulls_;                  // one per contact: impulse of the attraction [N s]
-  List<Scalar> pulls_before_;           // one per contact of the step before: the attraction [N]
-  ContactsOf<Law, S> pushes_;           // see pushes_before()
-  List<Twist> changes_;                 // one per body: by change()
-  List<Twist> by_impulses_;             // one per body: by find_changes()
-  List<typename Sums::Twist> momenta_;  // one per body: by the impulses
+  friend struct moreau::SerializationAccess;
+  auto serialized_members() { return std::tie(replaced_); }
+
+  std::vector<Materials<Law>> replaced_;  // those of the step before, if they were replaced since
+  List<Scalar> pulls_;                    // one per contact: impulse of the attraction [N s]
+  List<Scalar> pulls_before_;             // one per contact of the step before: the attraction [N]
+  ContactsOf<Law, S> pushes_;             // see pushes_before()
+  List<Twist> changes_;                   // one per body: by change()
+  List<Twist> by_impulses_;               // one per body: by find_changes()
+  List<typename Sums::Twist> momenta_;    // one per body: by the impulses
 };
 
 /// Under a law without attraction: does nothing.
@@ -185,6 +199,8 @@ struct NoAttraction {
   void apply(const auto&, const auto&, const auto&, const auto&) const {}
   void add_to(const auto&) const {}
   void take_from(const auto&) const {}
+  void keep(const auto&) const {}
+  void end_step() const {}
   const ContactsOf<Law, S>& pushes_before(const StepContext<S, Law>& context, const auto&) const {
     return context.previous;
   }

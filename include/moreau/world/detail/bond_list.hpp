@@ -37,6 +37,7 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/periodic_cell.hpp"
@@ -148,6 +149,7 @@ class BondList {
       while (c < contacts.size() && contacts.keys[c].bodies() == pair) ++c;
       if (bodies.is_prescribed(bond.a.index()) && bodies.is_prescribed(bond.b.index())) continue;
       contact_of_[i] = merged_.size();
+      if (!cell.is_open()) count_cells(bond, bodies, cell);
       const Vector shift = cell.shift(bond.cells);
       places_[i] = place_of(bond, bodies, shift);
       if (bond.is_new)
@@ -240,11 +242,15 @@ class BondList {
       const Law& law = materials.laws()[contacts.points[c].law];
       const Scalar full = step * law.strength().tension, now = pulls[c] / full;
       Softening& last = softening_[i];
-      const Scalar found = strength_in_step(i, law, op, c, impulses[c], step);
+      Scalar found = strength_in_step(i, law, op, c, impulses[c], step);
+      // Equal to rounding: T h s, divided by T h, is not s to the last bit.
+      const Scalar rounding = 4 * std::numeric_limits<Scalar>::epsilon() * bonds_[i].strength_left;
+      if (std::abs(found - now) <= rounding) found = now;
       const Scalar slope =
           last.found < 0 || now == last.now ? Scalar(0) : (found - last.found) / (now - last.now);
       const Scalar next = now + (found - now) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
-      last = {now, found, full * (std::clamp(next, Scalar(0), bonds_[i].strength_left) - now)};
+      const Scalar kept = std::clamp(next, Scalar(0), bonds_[i].strength_left);
+      last = {now, found, found == now ? Scalar(0) : full * (kept - now)};
       sum += double(full * (found - now)) * double(full * (found - now));
     });
     return sum;
@@ -269,8 +275,8 @@ class BondList {
     for_each([&](std::size_t, std::size_t c) {
       Row bears = impulses[c];
       bears[0] -= pulls[c];
-      sums[0] += double(bears.squaredNorm());
-      sums[1] += double(impulses[c].squaredNorm());
+      sums[0] += bears.template cast<double>().squaredNorm();
+      sums[1] += impulses[c].template cast<double>().squaredNorm();
     });
     if (shared) shared->sum(sums);
     return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
@@ -445,9 +451,16 @@ class BondList {
     bond.anchor_b = axes_b.transpose() * lever_b;
     bond.frame_a = axes_a.transpose() * frame;
     bond.frame_b = axes_b.transpose() * frame;
-    const Vector shift = bodies.pose[a].position + lever_a - lever_b - bodies.pose[b].position;
-    bond.cells = cell.cells(shift);
+    count_cells(bond, bodies, cell);
     return bond;
+  }
+  /// Counts the cells to the image of b at a: a user may have moved bodies by whole cells, or set another cell.
+  MOREAU_COLD static void count_cells(Bond<S>& bond, const Bodies<S>& bodies,
+                                      const PeriodicCell<S>& cell) {
+    const std::size_t a = bond.a.index(), b = bond.b.index();
+    const Vector at_a = bodies.pose[a].position + bodies.axes(a) * bond.anchor_a,
+                 at_b = bodies.pose[b].position + bodies.axes(b) * bond.anchor_b;
+    bond.cells = cell.cells(Vector(at_a - at_b));
   }
   void copy(const ContactsOf<Law, S>& from, std::size_t c) {
     merged_.points.push_back(from.points[c]);

@@ -111,8 +111,10 @@ void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
         forces[c] = 0;
         if (!Law::is_bridged(contacts.variants[c])) continue;
         const auto radius_at = [&](std::uint32_t body, const typename S::Vector& lever) {
-          return bodies.grain_mass[body] > 0 ? 1 / (lever.norm() - contact.gap / 2)
-                                             : typename S::Scalar(0);
+          using Scalar = typename S::Scalar;
+          return bodies.grain_mass[body] > 0
+                     ? 1 / std::max(lever.norm() - contact.gap / 2, Scalar(0))
+                     : Scalar(0);
         };
         const auto curvature =
             radius_at(contact.a, contact.lever_a) + radius_at(contact.b, contact.lever_b);

@@ -92,7 +92,7 @@ class ContactLaws {
         .value;
   }
   /// Chooses the variants of the next step, from impulses that still are rows of the operator and those of the laws.
-  /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of the impulses
+  /// @param accuracy tolerance of the solver; 0: it does not say
   template <
       class Contacts>  // clang would instantiate a function that is no template with the class
   void choose_variants([[maybe_unused]] const Problem& problem, const Materials<Law>& materials,

@@ -137,7 +137,9 @@ class ContactSprings {
   /// @param jumps    of the cell, if it deforms; null: none
   void relax(const StepContext<S, Law>& context, std::span<const Row> impulses,
              const CellJumps<S>* jumps, Operator& op) {
-    if (last_.size() != context.bodies.size()) remember(context.bodies.velocity);
+    // Bodies that were added since have no springs yet.
+    for (std::size_t i = last_.size(); i < context.bodies.size(); ++i)
+      last_.push_back(context.bodies.velocity[i]);
     relaxation_.resize(impulses.size());
     before_.resize(impulses.size());
     for (std::size_t c = 0; c < impulses.size(); ++c) {
@@ -157,6 +159,8 @@ class ContactSprings {
   /// Ends the step.
   /// @param velocities of the bodies after the step [m/s, rad/s]
   void remember(const List<typename S::Twist>& velocities) { last_ = velocities; }
+  /// The velocities after the step before are those that bodies have now.
+  void forget_velocities() { last_.clear(); }
   /// -c s + d / h, part of b [m/s].
   const Row& relaxation(std::size_t c) const { return relaxation_[c]; }
   /// Energy of the springs of a contact before the step, with the stiffness of this one [J].
@@ -191,7 +195,10 @@ class ContactSprings {
       if (!std::isfinite(u[0])) continue;
       if (r[0] > 0 || bonded) {
         const Scalar own = compliance_[c][0];
-        stiffest = std::min(stiffest, double(own / (problem.delassus.normal(c) - own)));
+        // The difference of two near numbers, where springs are soft.
+        const Scalar normal = problem.delassus.normal(c);
+        const Scalar w = std::max(normal - own, std::numeric_limits<Scalar>::epsilon() * normal);
+        stiffest = std::min(stiffest, double(own / w));
       }
       if (bonded) continue;
       if (!problem.law(c).keeps_normal_impulse())
@@ -229,7 +236,10 @@ class ContactSprings {
     sum_energies();
   }
   /// Whether the springs are those of as many contacts, after they were read from a file.
-  bool are_valid(std::size_t contacts) const { return energies_.size() == contacts; }
+  /// @param bodies how many there are
+  bool are_valid(std::size_t contacts, std::size_t bodies) const {
+    return energies_.size() == contacts && last_.size() <= bodies;
+  }
 
  private:
   /// Energy of normal springs, of tangential springs and of those of rolling [J].
@@ -299,11 +309,8 @@ class ContactSprings {
   }
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;
-  auto serialized_members() { return std::tie(last_step_, ahead_, energies_); }
-  void deserialized() {
-    sum_energies();
-    last_.clear();
-  }
+  auto serialized_members() { return std::tie(last_step_, ahead_, energies_, last_); }
+  void deserialized() { sum_energies(); }
 
   void sum_energies() {
     energy_ = {};

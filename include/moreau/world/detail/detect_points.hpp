@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,17 +26,14 @@ namespace moreau {
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& shape) {
-  const auto before = [](const Grain& grain, BodyId id) { return grain.body < id; };
-  const auto place = std::lower_bound(grains_.begin(), grains_.end(), body, before);
-  const auto k = static_cast<std::size_t>(place - grains_.begin());
-  if (k < grains_.size()) near_.insert_grain(k);
+  auto& list = grains_.empty() || grains_.back().body < body ? grains_ : late_;
   if (spare_.empty()) {
-    grains_.insert(place, Grain{body, &shape, Placed<ShapeT>(shape), width(shape)});
+    list.push_back(Grain{body, &shape, Placed<ShapeT>(shape), width(shape)});
   } else {
     spare_.back().body = body;
     spare_.back().shape = &shape;
     spare_.back().width = width(shape);
-    grains_.insert(place, std::move(spare_.back()));
+    list.push_back(std::move(spare_.back()));
     spare_.pop_back();
   }
   widest_ = std::max(widest_, width(shape));
@@ -43,9 +41,27 @@ void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& 
 }
 
 template <class ShapeT, class BroadPhaseT>
+void ContactDetector<ShapeT, BroadPhaseT>::insert_late() {
+  const auto before = [](const Grain& l, const Grain& r) { return l.body < r.body; };
+  std::sort(late_.begin(), late_.end(), before);
+  number_after_.clear();
+  std::size_t passed = 0;
+  for (const Grain& grain : grains_) {
+    while (passed < late_.size() && late_[passed].body < grain.body) ++passed;
+    number_after_.push_back(static_cast<std::uint32_t>(number_after_.size() + passed));
+  }
+  near_.renumber(number_after_);
+  const auto first = static_cast<std::ptrdiff_t>(grains_.size());
+  std::move(late_.begin(), late_.end(), std::back_inserter(grains_));
+  late_.clear();
+  std::inplace_merge(grains_.begin(), grains_.begin() + first, grains_.end(), before);
+}
+
+template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
     std::span<const unsigned char> is_removed) {
   constexpr std::uint32_t none = decltype(near_)::none;
+  if (!late_.empty()) insert_late();
   number_after_.clear();
   std::uint32_t left = 0;
   for (Grain& grain : grains_) {

@@ -45,7 +45,7 @@ class ForceDynamics {
   /// @param is_gone function: index of a contact -> whether it is removed
   void erase(const auto& is_gone) { erase_at(memory_, is_gone); }
   /// Whether the memory is that of as many contacts, after it was read from a file.
-  bool is_valid(std::size_t contacts) const { return memory_.size() == contacts; }
+  bool is_valid(std::size_t contacts, std::size_t) const { return memory_.size() == contacts; }
 
   void predict(Bodies<S>& bodies, const Vector& gravity, Scalar step) {
     integrator_.predict_configuration(bodies, std::span<const Twist>(loads_), gravity, step);

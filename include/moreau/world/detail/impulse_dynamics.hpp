@@ -18,6 +18,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -116,14 +117,18 @@ class ImpulseDynamics {
   void erase([[maybe_unused]] const auto& is_gone) {
     if constexpr (compliant) springs_.erase(is_gone);
   }
+  /// The materials of the step before, which the user replaces: springs remember pushes against their attraction.
+  void keep_materials([[maybe_unused]] const Materials<Law>& before) {
+    if constexpr (compliant && !bonding) attraction_.keep(before);
+  }
   auto& bonds() { return bonds_; }              ///< BondList of a law with bonds
   const auto& bonds() const { return bonds_; }  ///< the same
   /// Whether the springs are those of as many contacts, after they were read from a file.
-  bool is_valid([[maybe_unused]] std::size_t contacts) const {
+  bool is_valid([[maybe_unused]] std::size_t contacts, [[maybe_unused]] std::size_t bodies) const {
     if constexpr (compliant)
-      return springs_.are_valid(contacts);
+      return springs_.are_valid(contacts, bodies);
     else
-      return true;
+      return std::isfinite(last_step_) && last_step_ >= 0;
   }
 
   /// Stage 1.
@@ -174,11 +179,13 @@ class ImpulseDynamics {
     if constexpr (compliant && bonding)
       return std::tie(solver_, correction_, integrator_, springs_, bonds_);
     else if constexpr (bonding)
-      return std::tie(solver_, correction_, integrator_, bonds_);
+      return std::tie(solver_, correction_, integrator_, last_step_, bonds_);
+    else if constexpr (compliant && AttractiveLaw<Law, S>)
+      return std::tie(solver_, correction_, integrator_, springs_, attraction_);
     else if constexpr (compliant)
       return std::tie(solver_, correction_, integrator_, springs_);
     else
-      return std::tie(solver_, correction_, integrator_);
+      return std::tie(solver_, correction_, integrator_, last_step_);
   }
 
   void deserialized() {
@@ -248,6 +255,9 @@ class ImpulseDynamics {
       });
     } else {
       found = start(context, context.previous);
+      // The same forces over this step.
+      if (last_step_ > 0 && last_step_ != context.step)
+        for (Row& impulse : impulses) impulse *= context.step / last_step_;
     }
     if constexpr (bonding || !compliant) attraction_.add_to(impulses);
     bonds_.offset(context, problem_.delassus, attraction_.pulls(), std::span<const Twist>(before_));
@@ -310,8 +320,7 @@ class ImpulseDynamics {
       report.bond_error = bonds_.error(report.bond_load, report.solve.residual);
       bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
     }
-    laws_.choose_variants(problem_, context.materials, context.contacts,
-                          std::max(solver_tolerance(), report.solve.residual));
+    laws_.choose_variants(problem_, context.materials, context.contacts, solver_tolerance());
     attraction_.take_from(impulses);
     problem_.delassus.from_rows(impulses, team_);
   }
@@ -424,6 +433,8 @@ class ImpulseDynamics {
   Solver solver_;
   OverlapCorrection<S> correction_;
   Integrator integrator_, moving_;  // as set, and of this step
+  // h of the step before, 0 before the first [s]; compliant laws do not use it
+  Scalar last_step_ = 0;
   Problem problem_;
   [[no_unique_address]] std::conditional_t<compliant, ContactSprings<S, Law>, NoSprings> springs_;
   [[no_unique_address]] std::conditional_t<AttractiveLaw<Law, S>, Attraction<S, Law>,
@@ -508,6 +519,8 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
   measure_losses(context, report);
   shifts_.turn_spins(correction_.shifts(), after_, team_);
   advance_configuration<S>(moving_, context.bodies, after_, context.step, team_);
+  last_step_ = context.step;
+  attraction_.end_step();
   if constexpr (compliant) {
     springs_.remember(context.bodies.velocity);
     move_free_bodies(context);

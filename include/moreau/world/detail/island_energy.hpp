@@ -27,6 +27,8 @@ struct IslandEnergy {
   double rest_work = 0;                        // r_0 . u_0
   // G(r_0 + s (r - r_0)) = rest_gain + slope s + curvature s^2 / 2
   double slope = 0, curvature = 0;
+  double largest_free = 0,
+         largest_change = 0;  // relative velocities without impulses, by rest_share() [m/s]
 
   /// More than the rounding of its terms.
   bool makes_energy() const {

@@ -2,8 +2,10 @@
 // The functions of Simulation that make bonds.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
@@ -32,18 +34,39 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 void Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(BodyId a, BodyId b) requires
     BondingLaw<Law, SpaceOf<ShapeT>> {
-  constexpr const char* self = "Simulation::bond";
-  assembly_.require_body(a, self);
-  assembly_.require_body(b, self);
-  const auto is_pair = [&](BodyId first, BodyId second) {
-    return (first == a && second == b) || (first == b && second == a);
-  };
+  assembly_.require_body(a, "Simulation::bond");
+  assembly_.require_body(b, "Simulation::bond");
+  const std::pair pair(a, b);
   for (const Bond<S>& one : bonds())
-    if (is_pair(one.a, one.b)) return;
+    if (std::pair(one.a, one.b) == pair || std::pair(one.b, one.a) == pair) return;
+  bond(std::span(&pair, 1));
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
+    std::span<const std::pair<BodyId, BodyId>> pairs) requires BondingLaw<Law, SpaceOf<ShapeT>> {
+  constexpr const char* self = "Simulation::bond";
+  const auto ordered = [](BodyId a, BodyId b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  std::vector<std::pair<BodyId, BodyId>> listed, bonded;
+  for (const auto& [a, b] : pairs) {
+    assembly_.require_body(a, self);
+    assembly_.require_body(b, self);
+    listed.push_back(ordered(a, b));
+  }
+  std::sort(listed.begin(), listed.end());
+  std::vector<Bond<S>> before(bonds().begin(), bonds().end());
   const std::size_t made = add_bonds([&](const Contact<S>& contact) {
-    return is_pair(bodies().id[contact.a], bodies().id[contact.b]);
+    return std::binary_search(listed.begin(), listed.end(),
+                              ordered(bodies().id[contact.a], bodies().id[contact.b]));
   });
-  require(made == 1, self, "b", b, "must be within the margin of a, and one of them free to move");
+  for (const Bond<S>& one : bonds()) bonded.push_back(ordered(one.a, one.b));
+  std::sort(bonded.begin(), bonded.end());
+  for (const auto& [a, b] : pairs) {
+    if (std::binary_search(bonded.begin(), bonded.end(), ordered(a, b))) continue;
+    dynamics_.bonds().set_bonds(std::move(before));
+    require(false, self, "b", b, "must be within the margin of a, and one of them free to move");
+  }
+  return made;
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>

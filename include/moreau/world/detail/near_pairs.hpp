@@ -68,11 +68,12 @@ class NearPairs {
   void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
   const PairFilter& filter() const { return filter_; }  ///< see set_filter()
 
-  /// Makes room for a grain that gets the number k of one that exists.
-  void insert_grain(std::size_t k) {
+  /// Gives the grains other numbers, in the same order.
+  /// @param number_after of each grain
+  void renumber(std::span<const std::uint32_t> number_after) {
     for (IndexPair& pair : pairs_) {
-      pair.first += pair.first >= k;
-      pair.second += pair.second >= k;
+      pair.first = number_after[pair.first];
+      pair.second = number_after[pair.second];
     }
   }
   /// Removes the pairs of removed grains; keeps the others.

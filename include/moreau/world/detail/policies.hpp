@@ -100,6 +100,11 @@ struct Policies {
       "Simulation: Compliant<TangentialRestitution> would have two tangential restitutions, "
       "that of the springs and beta0; use Compliant<SignoriniCoulomb> or "
       "TangentialRestitution");
+  static_assert(
+      !ActsWhereGapsClose<Law> || !(CompliantLaw<Law, S> || BridgingLaw<Law, S> ||
+                                    (AttractiveLaw<Law, S> && !BondingLaw<Law, S>)),
+      "Simulation: a law with springs, bridges or an attraction acts where gaps are open, too; it "
+      "must not have the member type ActsWhereGapsClose");
   static_assert(integrates,
                 "Simulation: Integrator offers the functions neither of an ImpulseIntegrator nor "
                 "of a ForceIntegrator with the types of the shape's space; assert the concept to "

@@ -54,7 +54,7 @@
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
 // further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
-// thousandth of the largest, the step is as solved as it was. Problems without any restitution are treated in the same way.
+// thousandth of the largest of the island, the step is as solved as it was. Problems without any restitution are treated in the same way.
 // An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
 // rest move less.
@@ -199,7 +199,7 @@ class RestitutionLimit {
       // The inertia is bounded by its norm.
       const double about = double(angular<S>(change).norm()) * double(angular<S>(sum).norm());
       any = any || !(energy_along(bodies, i, change, sum) +
-                         double(bodies.inertia_body[i].norm()) * about <=
+                         bodies.inertia_body[i].template cast<double>().norm() * about <=
                      0);
     }
     return !any || islands_lose(bodies, problem, impulses, free);
@@ -350,20 +350,26 @@ class RestitutionLimit {
       return found;
     }
   }
-  /// By how much rest_share() of the islands changes relative velocities at most, as a share of the largest without impulses.
+  /// By how much rest_share() of an island changes relative velocities at most, as a share of the largest of this island
+  /// without impulses.
   MOREAU_COLD double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
     if (!damps()) return 0;
-    double change = 0, largest = 0;
     for (std::size_t c = 0; c < resting_.size(); ++c) {
       if (!std::isfinite(offset_[c])) continue;
+      Island& island = islands_[island_of(bodies, problem, c)];
       const Row free = problem.delassus.free_velocity(c);
-      const double rest = 1 - double(islands_[island_of(bodies, problem, c)].rest_share());
-      largest = std::max(largest, double(linear<S>(free).norm()));
+      const double rest = 1 - double(island.rest_share());
+      island.largest_free = std::max(island.largest_free, double(linear<S>(free).norm()));
       if (rest == 0) continue;
       const Row by_impulses = problem.delassus.velocity(c) - free;
-      change = std::max(change, rest * double(linear<S>(by_impulses).norm()));
+      island.largest_change =
+          std::max(island.largest_change, rest * double(linear<S>(by_impulses).norm()));
     }
-    return change > 0 ? change / largest : 0;
+    double share = 0;
+    for (const Island& island : islands_)
+      if (island.largest_change > 0)
+        share = std::max(share, island.largest_change / island.largest_free);
+    return share;
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
@@ -414,8 +420,8 @@ class RestitutionLimit {
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +
                            std::abs(double(bounce.impulse.dot(bounce.velocity)));
-      island.least_gain += double(negligible_ * bounce.impulse.norm());
-      island.least_rest_gain += double(negligible_ * rest.impulse.norm());
+      island.least_gain += double(negligible_) * bounce.impulse.template cast<double>().norm();
+      island.least_rest_gain += double(negligible_) * rest.impulse.template cast<double>().norm();
       island.rest_work += double(rest.impulse.dot(rest.velocity));
       island.rest_gain += rest.gain;
       island.rest_forced += rest.forced;

@@ -101,7 +101,10 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   if constexpr (bonding)
     dynamics_.bonds().place(bodies(), cell(), found, step * (1 - dynamics_.theta()));
   assign_laws(assembly_.bodies(), materials_, found, team_);
-  assembly_.require_no_deep_overlap(found, "Simulation::step");
+  assembly_.require_no_deep_overlap(found, "Simulation::step", [&] {
+    if constexpr (set_valued)
+      if (cell().is_lattice()) cell_motion_.undo_begin(detector_, step, dynamics_.theta());
+  });
   [[maybe_unused]] std::size_t pairs = 0;
   if constexpr (BridgingLaw<Law, S>)
     pairs = bridges_.update(materials_, contacts_, found, tolerances_.lengths(grain_size_).margin);

@@ -11,8 +11,8 @@
 // its static friction, its neighbours would have to bear more, and the face would slide below its threshold. Rigid bodies
 // with condition 2 satisfy condition 3. Springs do not: points of a face then slip one after another.
 //
-// The rest speed of a pair of bodies. Let rho be the largest of the solver's tolerance, SolveReport::residual, 1e-4 and
-// sqrt(epsilon). Over the N points of the pair that push, let w be the mean of the diagonal of W, |r| the norm of the
+// The rest speed of a pair of bodies. Let rho be the largest of the solver's tolerance, 1e-4 and sqrt(epsilon).
+// Over the N points of the pair that push, let w be the mean of the diagonal of W, |r| the norm of the
 // impulses, and |m| that of the natural map in units of the velocity, with w. The rest speed is
 //
 //     max(3 rho w |r| / sqrt(N), |m|).
@@ -24,8 +24,8 @@
 // therefore have an error far larger than the first term. The second term has this error: if a point should stick, its
 // velocity is its natural map.
 //
-// Bodies that the pair does not touch have no part in the first term. If it had the impulses of all contacts, a light body
-// would keep its static friction in slip because a heavy one rests elsewhere.
+// Bodies that the pair does not touch have no part in it. With the impulses of all contacts, or with their residual, a light
+// body would keep its static friction in slip because a heavy one rests elsewhere, or because a wedge elsewhere is not solved.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ class SlidingPoints {
 
   /// @param problem  its operator carries the velocities of the impulses
   /// @param impulses rows of the operator, one per contact
-  /// @param accuracy the larger of the solver's tolerance and SolveReport::residual of these impulses
+  /// @param accuracy tolerance of the solver; 0: it does not say
   /// @param first    the first contact of the pair
   /// @param last     the one after its last contact
   MOREAU_INLINED SlidingPoints(const Problem& problem, std::span<const Row> impulses,

@@ -51,7 +51,7 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       auto load = impulses[c];
       load[0] -= attraction.pulls()[c];
-      sums[1] += double(load.squaredNorm());
+      sums[1] += load.template cast<double>().squaredNorm();
     }
     if (shared) shared->sum(sums);
     if (sums[0] <= enough * enough * sums[1]) return;
