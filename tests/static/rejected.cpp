@@ -121,7 +121,8 @@ void stick(const moreau::Cohesive<Push>& law) {
 
 #ifdef springs_in_a_deforming_cell
 // A regularized law in a cell that deforms.
-// expect: (set_cell|constraints not satisfied)
+// expect: Simulation: a cell of set_cell\(\) needs a law for impulses
+// and no other error
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
@@ -132,6 +133,51 @@ void shear(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
   simulation.set_cell(moreau::Space<3>::Matrix::Identity());
 }
 #endif  // springs_in_a_deforming_cell
+
+#ifdef control_of_a_cell_with_springs
+// The same, where the cell is controlled.
+// expect: Simulation: a cell of set_cell\(\) needs a law for impulses
+// and no other error
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = EITHER(moreau::LinearSpringDashpot<>, moreau::SignoriniCoulomb<>);
+void shear(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
+  simulation.control_cell(moreau::CellControl<moreau::Space<3>>());
+}
+#endif  // control_of_a_cell_with_springs
+
+#ifdef bonds_of_a_law_without
+// Pairs that touch are bonded under a law without bonds.
+// expect: Simulation: the law has no bonds
+// and no other error
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = EITHER(moreau::SignoriniCoulomb<>, moreau::Bonded<>);
+std::size_t glue(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
+  return simulation.bond_touching(1e-6);
+}
+#endif  // bonds_of_a_law_without
+
+#ifdef bond_of_a_law_without
+// Two grains are bonded under a law without bonds.
+// expect: Simulation: the law has no bonds
+// and no other error
+#include "moreau/law/bonded.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/world/simulation.hpp"
+
+using Law = EITHER(moreau::LinearSpringDashpot<>, moreau::Bonded<>);
+void glue(moreau::Simulation<moreau::Polygon<>, Law>& simulation) {
+  simulation.bond(simulation.grain(0), simulation.grain(1));
+}
+#endif  // bond_of_a_law_without
 
 #ifdef springs_with_tangential_restitution
 // Springs in series with a law that has a tangential restitution.

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <memory>
 #include <random>
+#include <type_traits>
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/measure/energy_balance.hpp"
@@ -199,6 +200,65 @@ TEST_CASE_TEMPLATE("a deforming cell continues from a snapshot and with threads 
   }
 }
 
+TEST_CASE_TEMPLATE("report of a step: stress and deformation of the cell; strain", ShapeT,
+                   Disk<double>, Disk<float>, Ball<double>, Ball<float>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Matrix = typename S::Matrix;
+  const double near = std::is_same_v<T, float> ? 1e-5 : 1e-12;
+  using Law = SignoriniCoulomb<T>;
+  const T h = T(1e-4), room = T(0.03);
+  Simulation<ShapeT, Law> simulation(T(0.01), Materials<Law>(1, Law(T(0.4))));
+  const ShapeId shape = simulation.add_shape(ShapeT(T(0.005)));
+  for (int k = 0; k < 1 << S::dim; ++k) {
+    typename S::Vector x, v;
+    for (int axis = 0; axis < S::dim; ++axis) {
+      x[axis] = room * (T(k >> axis & 1) + T(0.5));
+      v[axis] = T(0.02 * (k + axis));
+    }
+    simulation.set_velocity(simulation.add_grain(shape, Pose<S>(x), 1000), v);
+  }
+  simulation.set_cell(2 * room * Matrix::Identity());
+  CHECK(simulation.step(h).cell_deformation == Eigen::Matrix3d::Identity());
+  CHECK(simulation.step(h).cell_stress.norm() > 0);  // of the velocities
+  const double volume = double(simulation.cell().volume());
+  CellControl<S> control;
+  control.rate(0, 0) = -1;
+  control.rate(1, 1) = T(-0.5);
+  simulation.control_cell(control);
+  StepReport report;
+  for (int k = 0; k < 100; ++k) report = simulation.step(h);
+  const CellMotion<S>& motion = simulation.cell_motion();
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero(), deformation = Eigen::Matrix3d::Identity();
+  stress.template topLeftCorner<S::dim, S::dim>() = motion.stress().template cast<double>();
+  deformation.template topLeftCorner<S::dim, S::dim>() =
+      motion.deformation().template cast<double>();
+  CHECK(report.cell_stress == stress);
+  CHECK(report.cell_deformation == deformation);
+  CHECK(deformation(0, 0) == doctest::Approx(std::exp(-0.01)).epsilon(1e-5));
+  const Matrix strain = motion.strain();
+  CHECK(double(strain(0, 0)) == doctest::Approx(-std::log(deformation(0, 0))).epsilon(10 * near));
+  CHECK(double(strain(0, 0)) == doctest::Approx(0.01).epsilon(1e-3));
+  CHECK(double(strain.trace()) ==
+        doctest::Approx(std::log(volume / double(simulation.cell().volume()))).epsilon(1e3 * near));
+  // A shear turns no volume into another; its strain is that of Hencky.
+  control = {};
+  control.rate(0, 1) = 4;
+  simulation.set_cell(simulation.cell().vectors());
+  CHECK(simulation.cell_motion().strain().isZero(0));
+  simulation.control_cell(control);
+  for (int k = 0; k < 1000; ++k) report = simulation.step(h);
+  const double gamma = report.cell_deformation(0, 1);
+  CHECK(gamma == doctest::Approx(0.4).epsilon(1e-3));
+  const Matrix sheared = simulation.cell_motion().strain();
+  const double stretch = std::asinh(gamma / 2), angle = std::atan(2 / gamma) / 2;
+  CHECK(double(sheared(0, 1)) ==
+        doctest::Approx(-stretch * std::sin(2 * angle)).epsilon(100 * near));
+  CHECK(double(sheared(0, 0)) ==
+        doctest::Approx(-stretch * std::cos(2 * angle)).epsilon(1e3 * near));
+  CHECK(std::abs(double(sheared.trace())) < 100 * near);
+}
+
 TEST_CASE("grains that do not touch move with the cell") {
   using World = scenes::World<Disk<>>;
   using Vector = Space<2>::Vector;
@@ -268,6 +328,20 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
   World small = world();
   CHECK_THROWS_AS(small.set_cell(0.03 * unit), std::invalid_argument);
   small.set_cell(0.1 * unit);
+  // A stress of a component that is held, and the two components of a shear.
+  control = {};
+  control.mass(1, 1) = 1;
+  control.stress = unit;
+  refuses([&] { one.control_cell(control); },
+          "Simulation::control_cell: mass = (0, 0, 0, 1) must be > 0 for components that follow a "
+          "stress");
+  control.stress(0, 0) = 0;
+  one.control_cell(control);
+  control.mass(0, 1) = 1;
+  control.stress(0, 1) = control.stress(1, 0) = 2;
+  one.control_cell(control);
+  control.stress(1, 0) = 3;
+  refuses([&] { one.control_cell(control); }, "Simulation::control_cell: mass = (0, 1, 0, 1)");
   control = {};
   control.rate = -20 * unit;
   small.control_cell(control);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "moreau/measure/detail/check_bonds.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/measure/detail/check_units.hpp"
 #include "moreau/measure/detail/lost_grain.hpp"
@@ -52,7 +53,8 @@ class SentencesOnce {
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
-///          - bonds: their forces are known to less than three digits (StepReport::bond_error)
+///          - bonds: their forces are known to less than three digits (StepReport::bond_error); the last call of
+///            bond_touching() made none, and there is none; their tension does not carry the weight of a bonded grain (kN)
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
 ///            forces are not accurate to 10 %
 ///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below
@@ -72,6 +74,7 @@ template <class Simulation>
   const bool is_first = double(simulation.time()) < 1.5 * report.step;
   detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
   detail::check_units(found, simulation, report.step);
+  if constexpr (requires { simulation.missed_gap(); }) detail::check_bonds(found, simulation);
   if (!is_first && detail::is_idle(simulation, report))
     found.say(
         "nothing moves: gravity is zero, and no body has a velocity or a force. Call set_gravity()",

@@ -69,15 +69,19 @@ struct CellControl {
   Matrix mass = Matrix::Zero();
   Scalar damping = 0;  ///< c of the components with a mass [1/s], >= 0
 
-  /// @throws std::invalid_argument for a number that is not finite, or a mass or damping < 0, or a stress
-  ///         without any mass
+  /// @throws std::invalid_argument for a number that is not finite, a mass or damping < 0, or a stress of a component
+  ///         without a mass, which would be ignored
   void check(const char* function) const {
     require(all_finite(rate), function, "rate", rate, "must be finite");
     require(all_finite(stress), function, "stress", stress, "must be finite");
     require(all_finite(mass) && mass.minCoeff() >= 0, function, "mass", mass,
             "must be finite and >= 0");
-    require(!mass.isZero(0) || stress.isZero(0), function, "mass", mass,
-            "must be > 0 for components that follow a stress");
+    // A symmetric stress may have one of the two components of a shear held.
+    for (int i = 0; i < S::dim; ++i)
+      for (int j = 0; j < S::dim; ++j)
+        require(
+            stress(i, j) == 0 || mass(i, j) > 0 || (mass(j, i) > 0 && stress(j, i) == stress(i, j)),
+            function, "mass", mass, "must be > 0 for components that follow a stress");
     require(std::isfinite(damping) && damping >= 0, function, "damping", damping,
             "must be finite and >= 0");
   }

@@ -2,6 +2,7 @@
 // The motion of a periodic cell that deforms; world/cell_control.hpp has the equations.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cstddef>
@@ -16,6 +17,7 @@
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/world/cell_control.hpp"
+#include "moreau/world/step_report.hpp"
 
 namespace moreau {
 
@@ -36,6 +38,16 @@ class CellMotion {
   /// Deformation gradient F since set_cell() [-]: a material line X has become F X. F(0, 1) is the shear strain of a
   /// cell that is only sheared.
   const Matrix& deformation() const { return deformation_; }
+  /// Logarithmic strain -ln(F F^T) / 2 since set_cell(), compression positive as the stress, world axes [-]. Its trace is
+  /// ln(volume at first / volume now), and that of an axis which no shear turns is ln(length at first / length now).
+  /// A small shear has half of F(0, 1) as its component (0, 1), with the opposite sign.
+  template <class Result = Matrix>
+  Result strain() const {
+    const Result square = deformation_ * deformation_.transpose();
+    const Eigen::SelfAdjointEigenSolver<Result> axes(square);
+    return -axes.eigenvectors() * (axes.eigenvalues().array().log() / 2).matrix().asDiagonal() *
+           axes.eigenvectors().transpose();
+  }
   /// Whether the cell deforms or can deform by its stress.
   MOREAU_COLD bool is_active() const { return !rate_.isZero(0) || !control_.mass.isZero(0); }
 
@@ -44,6 +56,14 @@ class CellMotion {
     for (int k = 0; k < rate_.size(); ++k)
       if (!(control.mass(k) > 0 && control_.mass(k) > 0)) rate_(k) = control.rate(k);
     control_ = control;
+  }
+  /// For Simulation: stress and deformation in the report of a step.
+  MOREAU_COLD void describe(StepReport& report) const {
+    for (int i = 0; i < S::dim; ++i)
+      for (int j = 0; j < S::dim; ++j) {
+        report.cell_stress(i, j) = double(stress_(i, j));
+        report.cell_deformation(i, j) = double(deformation_(i, j));
+      }
   }
   /// Volume of the cell at the detection of the last step [m^3], in the plane its area [m^2].
   Scalar volume() const { return volume_; }

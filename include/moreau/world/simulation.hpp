@@ -39,6 +39,7 @@
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"
 #include "moreau/world/detail/impulse_dynamics.hpp"
+#include "moreau/world/detail/refused.hpp"
 #include "moreau/world/detail/state_access.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/overlap_correction.hpp"
@@ -189,7 +190,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// Sets how the cell of set_cell() deforms, from the next step on. From then on velocities of bodies are relative
   /// to the cell: velocity(body) + cell_motion().rate() (x - corner) is that in the world. No velocity changes by the call.
   /// step() throws std::invalid_argument if the cell becomes too small for the grains.
-  /// @throws std::invalid_argument without such a cell, for numbers that are not finite, or a mass or damping < 0
+  /// @throws std::invalid_argument without such a cell, for numbers that are not finite, a mass or damping < 0, or a
+  ///         stress of a component without a mass
   void control_cell(const CellControl<S>& control) requires SetValuedLaw<Law, SpaceOf<ShapeT>>;
   const CellMotion<S>& cell_motion() const { return cell_motion_; }  ///< of the cell of set_cell()
   const PeriodicCell<S>& cell() const { return detector_.cell(); }   ///< open unless set
@@ -248,19 +250,25 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Bonds all pairs of bodies, or of those in `among`, whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
   /// contact points. The laws of their materials have the strengths.
-  /// @returns how many bonds were made
-  /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin
+  /// @returns how many bonds were made; check() says if there is none
+  /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin, or a deep overlap of a
+  ///         body that was placed since the last step, see allow_overlaps()
   std::size_t bond_touching(Scalar gap, std::span<const BodyId> among = {}) requires
       BondingLaw<Law, SpaceOf<ShapeT>>;
   /// Bonds two bodies at the middle of their contact points, unless they have a bond.
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
-  ///         or that both have a prescribed motion
+  ///         or that both have a prescribed motion, or a deep overlap as in bond_touching()
   void bond(BodyId a, BodyId b) requires BondingLaw<Law, SpaceOf<ShapeT>>;
   /// Bonds each of these pairs, with one detection of all contacts.
   /// @returns how many bonds were made: pairs that have one keep it
   /// @throws std::invalid_argument as the function for one pair; no bond is made then
   std::size_t bond(std::span<const std::pair<BodyId, BodyId>> pairs) requires
       BondingLaw<Law, SpaceOf<ShapeT>>;
+  /// The smallest gap of two bodies without a bond in the last call of bond_touching() [m], if there is no bond because
+  /// this call made none; infinite if no pair was within the margin; otherwise < 0. Snapshots do not contain it.
+  Scalar missed_gap() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    return dynamics_.bonds().missed_gap();
+  }
   /// All bonds, sorted by their bodies. The span is valid until bonds are made or break.
   std::span<const Bond<S>> bonds() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
     return dynamics_.bonds().bonds();
@@ -268,6 +276,19 @@ class Simulation : public BodyControl<ShapeT> {
   /// All bonds that broke, in the order of time.
   std::span<const Breakage> breakages() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
     return dynamics_.bonds().breakages();
+  }
+
+  // What the law does not allow ends in one sentence.
+  template <class L = Law>
+  requires(!BondingLaw<L, S>) std::size_t bond_touching(const auto&...)
+  const { return detail::refuse_bonds<L, S>(); }
+  template <class L = Law>
+  requires(!BondingLaw<L, S>) void bond(const auto&...) const { detail::refuse_bonds<L, S>(); }
+  template <class L = Law>
+  requires(!SetValuedLaw<L, S>) void set_cell(const auto&...) const { detail::refuse_cell<L, S>(); }
+  template <class L = Law>
+  requires(!SetValuedLaw<L, S>) void control_cell(const auto&...) const {
+    detail::refuse_cell<L, S>();
   }
 
   /// Advances the time by `step` [s], > 0.
@@ -352,7 +373,7 @@ class Simulation : public BodyControl<ShapeT> {
   }
 
   /// Bonds the pairs of contacts, in the present configuration, for which keeps(contact) is true.
-  std::size_t add_bonds(const auto& keeps);
+  std::size_t add_bonds(const char* function, const auto& keeps);
 
   /// Detects the contacts at the predicted configuration and assigns their laws.
   /// @param report out: results and times of detection

@@ -96,6 +96,9 @@ class BondList {
     });
     return bonds_.size() - before;
   }
+  /// Simulation::missed_gap() [m].
+  Scalar missed_gap() const { return missed_gap_; }
+  void note_missed(Scalar gap) { missed_gap_ = gap; }  ///< sets it
   /// Erases the bonds of removed bodies.
   /// @param removed one per body: not 0 if it is removed
   void erase(std::span<const unsigned char> removed) {
@@ -479,6 +482,7 @@ class BondList {
 
   std::vector<Bond<S>> bonds_;
   std::vector<Breakage> breakages_;
+  Scalar missed_gap_ = -1;
   // Of the step.
   List<std::size_t> contact_of_;  // of each bond, or none
   List<BondPlace<S>> places_;     // of each bond

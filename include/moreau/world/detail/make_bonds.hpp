@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,9 +27,14 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(
     assembly_.require_body(body, self);
     listed[body.index()] = true;
   }
-  return add_bonds([&](const Contact<S>& contact) {
-    return contact.gap <= gap && listed[contact.a] && listed[contact.b];
+  Scalar nearest = std::numeric_limits<Scalar>::infinity();
+  const std::size_t made = add_bonds(self, [&](const Contact<S>& contact) {
+    if (!listed[contact.a] || !listed[contact.b]) return false;
+    nearest = std::min(nearest, contact.gap);
+    return contact.gap <= gap;
   });
+  dynamics_.bonds().note_missed(bonds().empty() ? std::max(nearest, Scalar(0)) : Scalar(-1));
+  return made;
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
@@ -55,10 +61,11 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
   }
   std::sort(listed.begin(), listed.end());
   std::vector<Bond<S>> before(bonds().begin(), bonds().end());
-  const std::size_t made = add_bonds([&](const Contact<S>& contact) {
+  const std::size_t made = add_bonds(self, [&](const Contact<S>& contact) {
     return std::binary_search(listed.begin(), listed.end(),
                               ordered(bodies().id[contact.a], bodies().id[contact.b]));
   });
+  dynamics_.bonds().note_missed(-1);
   for (const Bond<S>& one : bonds()) bonded.push_back(ordered(one.a, one.b));
   std::sort(bonded.begin(), bonded.end());
   for (const auto& [a, b] : pairs) {
@@ -70,7 +77,8 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const auto& keeps) {
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const char* function,
+                                                                          const auto& keeps) {
   ContactsOf<Law, S> touching;
   detector_.place(std::span<const Pose<S>>(bodies().pose),
                   [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
@@ -79,6 +87,8 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const 
   if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
   detector_.use_whole_margin();
   detector_.detect(lengths(), bodies(), contacts_, touching);
+  assembly_.keep_poses(0);  // nothing has moved
+  assembly_.require_no_deep_overlap(touching, function);
   return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
 }
 

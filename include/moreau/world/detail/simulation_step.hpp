@@ -55,9 +55,11 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
       context.chords = chords_.update(assembly_, contacts_, step);
       dynamics_.solve_contacts(context, report);
     } while (detect_again(report, context));
-    if (context.cell)
+    if (context.cell) {
       cell_motion_.end(assembly_.bodies(), detector_, step, dynamics_.theta(),
                        dynamics_.cell_rate(), dynamics_.measure_cell(context, report), team_);
+      cell_motion_.describe(report);
+    }
     dynamics_.finish(context, report);
   } else {
     context.chords = chords_.update(assembly_, contacts_, -step);

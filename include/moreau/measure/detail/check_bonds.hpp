@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The part of check() about bonds: a call that made none, and strengths in another unit than N.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "moreau/core/ids.hpp"
+#include "moreau/measure/detail/check_report.hpp"
+
+namespace moreau::detail {
+
+/// The weight of the lightest grain that has a bond or had one, if its motion is not prescribed [N]; infinite if there
+/// is none.
+template <class Simulation>
+[[gnu::cold]] double least_bonded_weight(const Simulation& simulation) {
+  const auto& bodies = simulation.bodies();
+  double least = std::numeric_limits<double>::infinity();
+  const auto weigh = [&](BodyId id) {
+    const std::size_t body = id.index();
+    if (body >= bodies.size() || bodies.id[body] != id || !simulation.is_grain(body) ||
+        bodies.is_prescribed(body))
+      return;
+    least = std::min(least, double(bodies.grain_mass[body] * simulation.gravity().norm()));
+  };
+  for (const auto& bond : simulation.bonds()) weigh(bond.a), weigh(bond.b);
+  for (const auto& breakage : simulation.breakages()) weigh(breakage.a), weigh(breakage.b);
+  return least;
+}
+
+/// @param simulation under a law with bonds
+template <class Simulation>
+[[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation) {
+  const double missed = double(simulation.missed_gap());
+  if (std::isinf(missed))
+    found.say(
+        "bond_touching() has bonded nothing: no two bodies that it may bond were within the margin "
+        "of % m. Place them so that they touch before the call",
+        {simulation.tolerances().margin * double(simulation.grain_size())});
+  else if (missed >= 0)
+    found.say(
+        "bond_touching() has bonded nothing: the smallest gap was % m. Place the bodies closer, or "
+        "call it with a larger gap",
+        {missed});
+  double tension = std::numeric_limits<double>::infinity();
+  for (const auto& law : simulation.materials().laws())
+    tension = std::min(tension, double(law.strength().tension));
+  const double weight = least_bonded_weight(simulation);
+  if (tension < weight && std::isfinite(weight))
+    found.say(
+        "a bond of % N (BondStrength::tension) cannot carry the lightest grain that was bonded, "
+        "which weighs % N. If strengths are in kN, type %",
+        {tension, weight, 1000 * tension});
+}
+
+}  // namespace moreau::detail
