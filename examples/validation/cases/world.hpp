@@ -43,15 +43,16 @@ template <class ShapeT>
 using Hertz = moreau::HertzMindlin<ScalarOf<ShapeT>>;
 
 /// A simulation whose step is compiled once for each shape, law and solver, in worlds/ and
-/// in_float/, and not in every case.
+/// in_float/, and not in every case. Its policies but the solver are the defaults, whose worlds under Coulomb's law are
+/// in moreau_instances.
 template <class ShapeT, class Law = Coulomb<ShapeT>,
           class Solver = moreau::DefaultSolver<Law, moreau::SpaceOf<ShapeT>>>
 struct World
     : moreau::Simulation<ShapeT, Law, moreau::DefaultIntegrator<Law, moreau::SpaceOf<ShapeT>>,
-                         moreau::SweepAndPrune<moreau::SpaceOf<ShapeT>>, Solver> {
+                         moreau::CellGrid<moreau::SpaceOf<ShapeT>>, Solver> {
   using Base =
       moreau::Simulation<ShapeT, Law, moreau::DefaultIntegrator<Law, moreau::SpaceOf<ShapeT>>,
-                         moreau::SweepAndPrune<moreau::SpaceOf<ShapeT>>, Solver>;
+                         moreau::CellGrid<moreau::SpaceOf<ShapeT>>, Solver>;
   using Base::Base;
   moreau::StepReport step(double step);
 };

@@ -134,6 +134,9 @@ class ContactDetector {
   /// place() before.
   void find_pairs(const DetectionLengths<Scalar>& lengths);
 
+  /// Leaves the pairs of bonds out of detect(), until the next find_pairs().
+  /// @param bonds sorted by their bodies
+  void leave_out(const auto& bonds) { margins_.leave_out(near_.pairs(), grains_, bonds); }
   /// Chooses the margin of each pair for the next detect(): the gap that it can close in a step, by the velocities
   /// of the bodies (detail/step_margins.hpp). Call find_pairs() before.
   /// @param step h [s]

@@ -381,6 +381,7 @@ class Simulation : public BodyControl<ShapeT> {
   void detect(StepReport& report, Scalar step, StepReport::StageClock clock = {});
   void count_contacts(StepReport& report) const {
     report.pairs = detector_.touching_count();
+    if constexpr (bonding) report.pairs += dynamics_.bonds().undetected();
     report.points = contacts_.size();
     report.measure_overlaps(contacts_);
   }

@@ -20,8 +20,8 @@ struct StepReport {
   /// Pairs of grains in the list of the broad phase, without walls: the boxes of the grains were closer
   /// than margin + 2 skin along every axis when the list was made.
   std::size_t candidate_pairs = 0;
-  std::size_t pairs =
-      0;  ///< pairs with at least one contact point that was detected, walls included
+  /// Pairs with at least one contact point that was detected, or with a bond; walls included.
+  std::size_t pairs = 0;
   std::size_t points = 0;  ///< contact points
   /// Contact points whose key (bodies, parts and features) a contact point of the step before had, also
   /// if its impulse was 0.

@@ -64,6 +64,7 @@ class Attraction {
       pull_body(roots[contact.a], contact.lever_a, -pull, free[contact.a]);
     }
   }
+  void clear() { pulls_.clear(); }  ///< no contact attracts in this step
   /// Changes the attraction of a contact while the problem is being solved; offset() must follow.
   /// @param change of its impulse [N s]
   /// @param push   in, out: the unknown of the contact, which stays the same impulse on b [N s]
@@ -150,7 +151,7 @@ class Attraction {
   }
   /// The change of the velocity of a body, by find_changes() [m/s, rad/s].
   const Twist& change_of(std::size_t body) const { return by_impulses_[body]; }
-  /// One per contact: impulse of the attraction [N s].
+  /// One per contact: impulse of the attraction; empty after clear() [N s].
   std::span<const Scalar> pulls() const { return pulls_; }
 
  private:

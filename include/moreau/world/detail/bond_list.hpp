@@ -142,6 +142,7 @@ class BondList {
     places_.resize(bonds_.size());
     softening_.assign(bonds_.size(), {});
     drifts_.resize(bonds_.size());
+    undetected_ = 0;
     if (bonds_.empty()) return;
     merged_.clear();
     std::size_t c = 0;
@@ -149,10 +150,12 @@ class BondList {
       Bond<S>& bond = bonds_[i];
       const std::pair pair(bond.a.value, bond.b.value);
       for (; c < contacts.size() && contacts.keys[c].bodies() < pair; ++c) copy(contacts, c);
+      const std::size_t detected = c;
       while (c < contacts.size() && contacts.keys[c].bodies() == pair) ++c;
       if (bodies.is_prescribed(bond.a.index()) && bodies.is_prescribed(bond.b.index())) continue;
       contact_of_[i] = merged_.size();
       if (!cell.is_open()) count_cells(bond, bodies, cell);
+      undetected_ += c == detected;
       const Vector shift = cell.shift(bond.cells);
       places_[i] = place_of(bond, bodies, shift);
       if (bond.is_new)
@@ -162,6 +165,8 @@ class BondList {
     for (; c < contacts.size(); ++c) copy(contacts, c);
     std::swap(contacts, merged_);
   }
+  /// Bonds of the last place() for whose pairs detection had no contact.
+  std::size_t undetected() const { return undetected_; }
   /// Gives the contacts of bonds the variant with a bond, and all others that without.
   void start(ContactsOf<Law, S>& contacts) const {
     contacts.variants.assign(contacts.size(), 0);
@@ -492,6 +497,7 @@ class BondList {
   List<Softening> softening_;     // of each bond
   List<Row> hidden_;
   ContactsOf<Law, S> merged_;
+  std::size_t undetected_ = 0;
   std::size_t new_breakages_ = 0;
 };
 

@@ -36,13 +36,14 @@ class CellEquation {
   /// Whether the stress moves the cell.
   bool moves(const Context& context) const { return context.deforms() && servo_.moves(); }
   /// Makes a cell that moves a body of the operator.
-  /// @param pulls impulse of the attraction of each contact [N s]
+  /// @param pulls impulse of the attraction of each contact; empty: none attracts [N s]
   void join(const Context& context, [[maybe_unused]] std::span<const Scalar> pulls, auto& op) {
     Matrix moment = Matrix::Zero();
     if constexpr (AttractiveLaw<Law, S>)
-      moment = CellJumps<S>::moment_of_contacts(
-          context.contacts, [&](std::size_t c) { return Vector(-pulls[c] * Vector::Unit(0)); },
-          Scalar(1));
+      if (!pulls.empty())
+        moment = CellJumps<S>::moment_of_contacts(
+            context.contacts, [&](std::size_t c) { return Vector(-pulls[c] * Vector::Unit(0)); },
+            Scalar(1));
     servo_.set_rate(servo_.free(moment));
     jumps_.change(servo_.rate(), context.contacts, op);
     op.add_cell(servo_.response());

@@ -209,7 +209,16 @@ class ImpulseDynamics {
     return correction;
   }
 
+  /// Whether the law can attract bodies in this step; without bonds, one with bonds does not.
+  bool attracts() const {
+    if constexpr (bonding)
+      return !bonds_.bonds().empty() || shared_;
+    else
+      return AttractiveLaw<Law, S>;
+  }
   void attract(const Context& context) {
+    if constexpr (bonding)
+      if (!attracts()) return attraction_.clear();
     attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_),
                       std::span<Twist>(free_));
   }
@@ -301,10 +310,11 @@ class ImpulseDynamics {
     const std::span<Row> impulses(context.contacts.impulses);
     solve_problem(context, report);
     if constexpr (bonding)
-      soften_bonds(
-          context, bonds_, attraction_, problem_.delassus, impulses,
-          std::span<const MobilityRoot<S>>(roots_), free_, solver_tolerance(),
-          [&] { solve_problem(context, report); }, report.solve, shared_.get());
+      if (attracts())
+        soften_bonds(
+            context, bonds_, attraction_, problem_.delassus, impulses,
+            std::span<const MobilityRoot<S>>(roots_), free_, solver_tolerance(),
+            [&] { solve_problem(context, report); }, report.solve, shared_.get());
     if (!shared_)
       laws_.limit().apply(
           context.bodies, problem_, impulses, springs_, solver_, workspace_,
@@ -333,8 +343,8 @@ class ImpulseDynamics {
       return 0;
   }
   /// Whether the relative velocities of contacts without impulses are those of free_, but for the offsets of the laws.
-  static bool bodies_alone(const Context& context) {
-    return !AttractiveLaw<Law, S> && context.chords.empty() && !context.deforms();
+  bool bodies_alone(const Context& context) const {
+    return !attracts() && context.chords.empty() && !context.deforms();
   }
   /// What the external forces of the step and the attraction add to the relative velocity of contact c, a row of the
   /// operator [m/s].
@@ -485,7 +495,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::attract_again(const Context& c
                                                                 StepReport& report) {
   StepReport::StageClock clock;
   free_ = unattracted_;
-  attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_), std::span(free_));
+  attract(context);
   report.ms_assemble += clock.lap();
 }
 

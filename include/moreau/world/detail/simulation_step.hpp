@@ -86,6 +86,7 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
     const Matrix vectors = cell().vectors();
     detector_.find_pairs(lengths());
     if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
+    detector_.leave_out(bonds());
   } else {
     detector_.find_pairs(lengths());
   }

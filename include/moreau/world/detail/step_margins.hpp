@@ -25,20 +25,23 @@
 // The bound: points of both bodies at most R from the centre of a have relative velocities of at most
 // |u| + R |w|, u being the relative velocity of the two rigid motions at this centre and w that of their rotations.
 // Bodies that move together, such as grains and a turning cylinder wall, approach by nothing.
-// The contacts of bonds (law/bonded.hpp) do not come from detection.
+// The contacts of bonds (law/bonded.hpp) do not come from detection, which leaves these pairs out.
 // Near walls that turn, the contact problem adds the chord of the motion to u_n (chord_velocities.hpp). Where it is
 // negative it is at most the approach velocity before the step, which is then added to the bound of 2.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/ids.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/detect/broad_phase.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/parallel/team.hpp"
 
@@ -135,8 +138,25 @@ class StepMargins {
       if (bounds.is_prescribed(k)) of_grain_[k] = 0;
   }
   bool are_fitted() const { return fitted_; }  ///< not so after use_whole()
-  /// Whether the boxes of pair p are closer than the whole margin; true if that is not known.
-  bool is_near(std::size_t p) const { return !fitted_ || near_[p] >= 0; }
+  /// Leaves pairs out of detection, until take_all().
+  /// @param pairs  of grains, sorted by their bodies
+  /// @param bonds  of bodies, sorted likewise
+  void leave_out(std::span<const IndexPair> pairs, const auto& grains, const auto& bonds) {
+    left_out_.assign(bonds.empty() ? 0 : pairs.size(), 0);
+    std::size_t p = 0;
+    for (const auto& bond : bonds) {
+      const auto compare = [&] {
+        const BodyId a = grains[pairs[p].first].body;
+        return a == bond.a ? grains[pairs[p].second].body <=> bond.b : a <=> bond.a;
+      };
+      while (p < pairs.size() && compare() < 0) ++p;
+      if (p < pairs.size() && compare() == 0) left_out_[p] = 1;
+    }
+  }
+  void take_all() { left_out_.clear(); }  ///< leaves no pair out
+  /// Whether the boxes of pair p are closer than the whole margin; true if that is not known. Not of a pair that is left
+  /// out.
+  bool is_near(std::size_t p) const { return (!fitted_ || near_[p] >= 0) && !is_left_out(p); }
   /// The margin of a pair of grains [m].
   /// @param whole the largest margin [m]
   Scalar of_pair(std::size_t first, std::size_t second, Scalar whole) const {
@@ -163,6 +183,7 @@ class StepMargins {
             [&] { return bounds.of_walls(k); });
     });
     team.share_each(near_.size(), 512, [&](std::size_t p) {
+      if (is_left_out(p)) return;
       const auto [first, second] = bounds.pairs[p];
       check(of_pair(first, second, bounds.margin), reach_[first] + reach_[second],
             [&] { return bounds.of_pair(p); });
@@ -171,13 +192,15 @@ class StepMargins {
   }
 
  private:
+  bool is_left_out(std::size_t p) const { return !left_out_.empty() && left_out_[p] != 0; }
   static Scalar margin(Scalar approach, Scalar whole) {
     return std::min(whole, whole / 10 + 2 * approach);
   }
 
-  List<Scalar> near_;      // bound of each pair [m]; < 0: its boxes are far apart
-  List<Scalar> of_grain_;  // largest of the bounds of its pairs [m]
-  List<Scalar> reach_;     // of each grain, see ApproachBounds [m]
+  List<Scalar> near_;             // bound of each pair [m]; < 0: its boxes are far apart
+  List<Scalar> of_grain_;         // largest of the bounds of its pairs [m]
+  List<Scalar> reach_;            // of each grain, see ApproachBounds [m]
+  List<unsigned char> left_out_;  // of each pair: whether detection leaves it out; empty: none
   bool fitted_ = false;
 };
 
