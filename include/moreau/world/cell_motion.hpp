@@ -58,11 +58,11 @@ class CellMotion {
     control_ = control;
   }
   /// For Simulation: stress and deformation in the report of a step.
-  MOREAU_COLD void describe(StepReport& report) const {
+  MOREAU_INLINED void describe(StepReport& report) const {
     for (int i = 0; i < S::dim; ++i)
       for (int j = 0; j < S::dim; ++j) {
-        report.cell_stress(i, j) = double(stress_(i, j));
-        report.cell_deformation(i, j) = double(deformation_(i, j));
+        report.cell_stress[i][j] = double(stress_(i, j));
+        report.cell_deformation[i][j] = double(deformation_(i, j));
       }
   }
   /// Volume of the cell at the detection of the last step [m^3], in the plane its area [m^2].

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -59,10 +57,10 @@ struct StepReport {
   double cell_work = 0;
   /// Stress of a cell of set_cell() in the step, compression positive, world axes [Pa]: CellMotion::stress(). In the
   /// plane it is in the first two rows and columns [N/m]. Zero without such a cell.
-  Eigen::Matrix3d cell_stress = Eigen::Matrix3d::Zero();
-  /// Its deformation gradient F since set_cell(), after the step, world axes [-]: CellMotion::deformation(). F(0, 1) / F(1, 1)
+  double cell_stress[3][3] = {};
+  /// Its deformation gradient F since set_cell(), after the step, world axes [-]: CellMotion::deformation(). F[0][1] / F[1][1]
   /// is the shear strain along x with y; CellMotion::strain() is the strain. Identity without such a cell.
-  Eigen::Matrix3d cell_deformation = Eigen::Matrix3d::Identity();
+  double cell_deformation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   /// Energy of the springs of compliant contacts after the step [J]; 0 under other laws.
   double elastic_energy = 0;
   double elastic_work = 0;         ///< energy that these springs took in the step [J]
