@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "moreau/law/bonded.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
@@ -193,60 +192,6 @@ TEST_CASE("check: a plank among large grains allows its thickness as the grain s
     world.add_wall({0, 0, 1}, {0, 0, 0});
     world.set_gravity({0, 0, -9.81});
     CHECK(run(world, 1e-4, 3).empty() == (size == 0.02));
-  }
-}
-
-TEST_CASE_TEMPLATE("check: bonds that were not made, and strengths in kN", ShapeT, Disk<double>,
-                   Disk<float>, Ball<double>, Ball<float>) {
-  using S = SpaceOf<ShapeT>;
-  using T = typename S::Scalar;
-  using Glue = Bonded<T>;
-  const T radius = T(0.01), gap = T(1e-4);
-  const auto pair = [&](T strength, T distance) {
-    Simulation<ShapeT, Glue> world(2 * radius,
-                                   Materials<Glue>(1, Glue({strength, strength, strength})));
-    const ShapeId shape = world.add_shape(ShapeT(radius));
-    for (const T x : {T(0), distance})
-      world.add_grain(shape, Pose<S>(typename S::Vector(x * S::Vector::UnitX())), T(2700));
-    world.prescribe_motion(world.grain(0));
-    world.set_gravity(typename S::Vector(T(-9.81) * S::Vector::Unit(S::dim - 1)));
-    return world;
-  };
-  const auto sentences = [&](auto& world) { return check(world, world.step(T(1e-4))); };
-  auto near = pair(100, 2 * radius + gap);
-  CHECK(sentences(near).empty());  // no bond was asked for
-  CHECK(near.bond_touching(gap / 10) == 0);
-  CHECK(double(near.missed_gap()) == doctest::Approx(double(gap)).epsilon(1e-2));
-  CHECK(one_contains(sentences(near),
-                     "bond_touching() has bonded nothing: the smallest gap was 0.0001"));
-  CHECK(near.bond_touching(2 * gap) == 1);
-  CHECK(near.missed_gap() < 0);
-  CHECK(near.bond_touching(gap / 10) == 0);  // there is one already
-  CHECK(sentences(near).empty());
-  auto far = pair(100, 4 * radius);
-  CHECK(far.bond_touching(gap) == 0);
-  CHECK(one_contains(sentences(far), "no two bodies that it may bond were within the margin of"));
-  // 0.02 kN for 20 N. It breaks in the first step.
-  auto weak = pair(T(0.02), 2 * radius);
-  CHECK(weak.bond_touching(gap) == 1);
-  CHECK(one_contains(sentences(weak), "If strengths are in kN, type 20"));
-  CHECK(weak.breakages().size() == 1);
-  CHECK(one_contains(sentences(weak), "a bond of 0.02 N (BondStrength::tension) cannot carry"));
-  weak.set_gravity(typename S::Vector(S::Vector::Zero()));
-  CHECK(!one_contains(sentences(weak), "kN"));
-  // Two grains in one place.
-  for (const bool listed : {true, false}) {
-    auto same = pair(100, T(0.5) * radius);
-    const std::vector<BodyId> both{same.grain(0), same.grain(1)};
-    CHECK_THROWS_WITH_AS(
-        listed ? same.bond(both[0], both[1]) : void(same.bond_touching(gap)),
-        doctest::Contains(listed ? "Simulation::bond: overlap of grain 0 and grain 1"
-                                 : "Simulation::bond_touching: overlap of grain"),
-        std::invalid_argument);
-    CHECK(same.bonds().empty());
-    CHECK_THROWS_AS(same.step(T(1e-4)), std::invalid_argument);  // as before the call
-    same.allow_overlaps();
-    CHECK(same.bond_touching(gap) == 1);
   }
 }
 

@@ -149,21 +149,6 @@ void shear(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
 }
 #endif  // control_of_a_cell_with_springs
 
-#ifdef bonds_of_a_law_without
-// Pairs that touch are bonded under a law without bonds.
-// expect: Simulation: the law has no bonds
-// and no other error
-#include "moreau/law/bonded.hpp"
-#include "moreau/law/signorini_coulomb.hpp"
-#include "moreau/shape/ball.hpp"
-#include "moreau/world/simulation.hpp"
-
-using Law = EITHER(moreau::SignoriniCoulomb<>, moreau::Bonded<>);
-std::size_t glue(moreau::Simulation<moreau::Ball<>, Law>& simulation) {
-  return simulation.bond_touching(1e-6);
-}
-#endif  // bonds_of_a_law_without
-
 #ifdef bond_of_a_law_without
 // Two grains are bonded under a law without bonds.
 // expect: Simulation: the law has no bonds
@@ -402,8 +387,9 @@ World start(const Law& law) {
 #endif  // springs_bridges_and_tangential_restitution
 
 #ifdef bonds_of_a_law_without
-// A bond under a law that has none.
-// expect: (bond|constraints not satisfied)
+// Pairs that touch are bonded under a law without bonds.
+// expect: Simulation: the law has no bonds
+// and no other error
 #include "moreau/law/bonded.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"

@@ -562,6 +562,70 @@ TEST_CASE_TEMPLATE("bond: a stone of bonded parts is one body until it breaks", 
   CHECK(world.breakages().size() == before.bonds / 2);
 }
 
+TEST_CASE_TEMPLATE(
+    "bond: check() names bonds that were not made, and strengths in kN; deep overlaps are refused",
+    X,
+    MOREAU_TYPES((Case<Circle, Rigid>, Case<Globe, Soft>),
+                 (Case<Globe, Rigid>, Case<BallIn<Space<2, float>>, Bonded<float>>))) {
+  using ShapeT = typename X::Shape;
+  using Law = typename X::LawOf;
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const T gap = T(1e-4), width = T(2 * radius);
+  const auto pair = [&](double scale, T distance) {
+    Simulation<ShapeT, Law> world(width, Materials<Law>(1, Make<Law>::law(0, scale)),
+                                  tight(std::is_same_v<T, float>));
+    const ShapeId shape = world.add_shape(ShapeT(T(radius)));
+    for (const T x : {T(0), distance})
+      world.add_grain(shape, Pose<S>(Vector(x * Vector::UnitX())), T(1000));
+    world.prescribe_motion(world.grain(0));
+    world.set_gravity(Vector(T(-9.81) * Vector::Unit(S::dim - 1)));
+    return world;
+  };
+  const auto says = [&](auto& world, const char* text) {
+    const StepReport report = world.step(T(1e-5));
+    for (const std::string& sentence : check(world, report))
+      if (sentence.find(text) != std::string::npos) return true;
+    return false;
+  };
+  const char *nothing = "has bonded nothing", *weak = "cannot carry the lightest grain";
+  auto near = pair(1, width + gap);
+  CHECK(!says(near, nothing));  // none was asked for
+  CHECK(near.bond_touching(gap / 10) == 0);
+  CHECK(agree(double(near.missed_gap()), double(gap), 1e-2));
+  CHECK(says(near, "has bonded nothing: the smallest gap was "));
+  CHECK(near.bond_touching(2 * gap) == 1);
+  CHECK(near.missed_gap() < 0);
+  CHECK(near.bond_touching(gap / 10) == 0);  // there is one already
+  CHECK(!says(near, nothing));
+  CHECK(!says(near, weak));
+  auto far = pair(1, 2 * width);
+  CHECK(far.bond_touching(gap) == 0);
+  CHECK(says(far, "no two bodies that it may bond were within the margin of"));
+  auto kilo = pair(1e-3, width);  // 0.02 kN for 20 N
+  CHECK(kilo.bond_touching(gap) == 1);
+  CHECK(says(kilo, "If strengths are in kN, type 20"));
+  kilo.set_gravity(Vector(T(-9810) * Vector::Unit(S::dim - 1)));
+  CHECK(says(kilo, weak));
+  CHECK(kilo.breakages().size() == 1);
+  CHECK(says(kilo, weak));  // of bonds that have broken
+  kilo.set_gravity(Vector(Vector::Zero()));
+  CHECK(!says(kilo, weak));
+  for (const bool one : {true, false}) {  // in nearly one place
+    auto same = pair(1, T(0.2 * radius));
+    const BodyId a = same.grain(0), b = same.grain(1);
+    const std::string text =
+        one ? "Simulation::bond: overlap" : "Simulation::bond_touching: overlap";
+    CHECK_THROWS_WITH_AS(one ? same.bond(a, b) : void(same.bond_touching(gap)),
+                         doctest::Contains(text.c_str()), std::invalid_argument);
+    CHECK(same.bonds().empty());
+    CHECK_THROWS_AS(same.step(T(1e-5)), std::invalid_argument);  // as before the call
+    same.allow_overlaps();
+    CHECK(same.bond_touching(gap) == 1);
+  }
+}
+
 TEST_CASE("bond: made as the guide shows") {
   using S = Space<2>;
   using Glue = Compliant<Bonded<double>>;
