@@ -88,7 +88,7 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const 
   detector_.use_whole_margin();
   detector_.detect(lengths(), bodies(), contacts_, touching);
   assembly_.keep_poses(0);  // nothing has moved
-  assembly_.require_no_deep_overlap(touching, function);
+  assembly_.require_no_deep_overlap(touching, function, [] {});
   return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
 }
 
