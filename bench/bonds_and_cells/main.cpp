@@ -17,11 +17,9 @@
 //
 //   valgrind --tool=callgrind --toggle-collect='measured_steps*' bench_bonds_and_cells_bonded ...
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <random>
 #include <stdexcept>
@@ -43,17 +41,17 @@ using Matrix = S::Matrix;
 
 namespace {
 
-constexpr double friction = 0.4, rolling = 0.1, pressure = 1e5;  // [-], [-], [Pa]
-constexpr double stiffness = 5e8;                                // [N/m]
-constexpr double step = 1e-4, density = 2700;                    // [s], [kg/m^3]
+[[maybe_unused]] constexpr double friction = 0.4, rolling = 0.1, pressure = 1e5;  // [-], [-], [Pa]
+constexpr double stiffness = 5e8;                                                 // [N/m]
+constexpr double step = 1e-4, density = 2700;                                     // [s], [kg/m^3]
 
-SignoriniCoulomb<> law_of(const SignoriniCoulomb<>*) {
+[[maybe_unused]] SignoriniCoulomb<> law_of(const SignoriniCoulomb<>*) {
   return SignoriniCoulomb<>(friction);
 }
-RollingResistance<> law_of(const RollingResistance<>*) {
+[[maybe_unused]] RollingResistance<> law_of(const RollingResistance<>*) {
   return RollingResistance<>(friction, rolling);
 }
-Bonded<> law_of(const Bonded<>*) {
+[[maybe_unused]] Bonded<> law_of(const Bonded<>*) {
   return Bonded<>({1e4, 1e4, 1e4}, friction, rolling);
 }
 template <class Law>
