@@ -68,8 +68,8 @@ Rebound impact(const Grain<S>& grain, const Law& law, const typename S::Rotation
     if (std::find(touched.begin(), touched.end(), world.contacts.keys[c]) == touched.end())
       continue;
     ++rebound.points;
-    rebound.restitution += BodyDelassus<S>::relative_velocity(
-        world.contacts.points[c], world.bodies.velocity[0], world.bodies.velocity[1])[0];
+    rebound.restitution += relative_velocity(world.contacts.points[c], world.bodies.velocity[0],
+                                             world.bodies.velocity[1])[0];
   }
   rebound.restitution /= speed * double(rebound.points);
   rebound.energy = world.energy() / before;

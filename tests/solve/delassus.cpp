@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The Delassus operator of contacts: blocks, velocities and impulses agree with one another.
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "moreau/motion/mobility.hpp"
@@ -67,8 +69,61 @@ TEST_CASE_TEMPLATE("impulses in the frames of the contacts are rows in the frame
     CHECK(op.turned(c, impulses[c]) == rows[c]);
     CHECK((op.turned_back(c, rows[c]) - impulses[c]).norm() < 1e-14);
   }
-  op.from_rows(rows);
-  for (std::size_t c = 0; c < op.size(); ++c) CHECK((rows[c] - impulses[c]).norm() < 1e-14);
+  std::vector<typename S::Vector> back(op.size());
+  op.from_rows(rows, back);
+  for (std::size_t c = 0; c < op.size(); ++c) CHECK((back[c] - impulses[c]).norm() < 1e-14);
+}
+
+TEST_CASE_TEMPLATE("relative velocities of bodies are those of the operator", S, Space<2>, Space<3>,
+                   Space<2, float>, Space<3, float>) {
+  using T = typename S::Scalar;
+  const Assembly<S> problem(6);
+  const auto& op = problem.op;
+  for (std::size_t c = 0; c < op.size(); ++c) {
+    const Contact<S>& contact = problem.contacts[c];
+    const typename S::Vector u =
+        relative_velocity(contact, problem.free[contact.a], problem.free[contact.b]);
+    const T rounding = 64 * std::numeric_limits<T>::epsilon();
+    CHECK((op.turned(c, u) - op.free_velocity(c)).norm() <= rounding);
+    CHECK(op.row(c, u, S::Angular::Zero()) == op.turned(c, u));
+  }
+}
+
+TEST_CASE_TEMPLATE("the operator knows the islands of its contacts until it is assembled again", S,
+                   Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+  Assembly<S> problem(7);
+  auto& op = problem.op;
+  const std::size_t floor = op.body_count() - 1;
+  CHECK(op.freedoms()[floor] == 0);
+  CHECK(op.freedoms()[0] == 2);
+  typename S::Scalar longest = 0;
+  for (const Contact<S>& contact : problem.contacts)
+    for (const auto& [body, lever] :
+         {std::pair(contact.a, contact.lever_a), std::pair(contact.b, contact.lever_b)})
+      if (body != floor) longest = std::max(longest, lever.norm());
+  CHECK(double(op.longest_lever()) == doctest::Approx(double(longest)).epsilon(1e-6));
+
+  const auto check = [&](std::size_t count) {
+    // Of the contacts of the first bodies alone, those of the bodies above `count` being gone.
+    List<Contact<S>> some;
+    for (const Contact<S>& contact : problem.contacts)
+      if (contact.a < count && (contact.b < count || contact.b == floor)) some.push_back(contact);
+    op.assemble(some, problem.roots, problem.free);
+    const auto& islands = op.islands();
+    CHECK(!islands.has_large());
+    std::size_t contacts = 0, bodies = 0;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+      contacts += islands.contacts(k).size();
+      bodies += islands.bodies(k);
+      for (const std::uint32_t c : islands.contacts(k)) CHECK(op.bodies(c)[0] == some[c].a);
+    }
+    CHECK(contacts == some.size());
+    CHECK(bodies <= count);
+    return contacts;
+  };
+  const std::size_t few = check(40), more = check(100);
+  CHECK(few < more);
+  CHECK(check(40) == few);
 }
 
 TEST_CASE("the inverse mass of a wall that moves along one axis") {

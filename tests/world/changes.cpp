@@ -339,7 +339,7 @@ TEST_CASE_TEMPLATE(
   add(now, 1, 6, 1.9, -0.2);  // nearest to the last
   add(now, 2, 0, 2, 0);       // another pair
   CHECK(warm_start(before, now) == 1);
-  CHECK(hand_over(before, now, ImpulseTurn<T>()) == 2);
+  CHECK(hand_over(before, now, before.impulses, now.impulses, ImpulseTurn<T>()) == 2);
   const auto in_world = [](const List& contacts, std::size_t c) {
     return typename T::Angular(T::angular_frame(contacts.points[c].frame) * contacts.couple(c));
   };

@@ -71,8 +71,7 @@ std::vector<typename S::Twist> plain_shifts(const Assembly<S>& assembly,
       const Contact<S>& contact = assembly.contacts[c];
       const typename S::Vector n = contact.frame.col(0);
       const T depth = -(contact.gap + T(options.slop));
-      const T closing =
-          BodyDelassus<S>::relative_velocity(contact, shifts[contact.a], shifts[contact.b])[0];
+      const T closing = relative_velocity(contact, shifts[contact.a], shifts[contact.b])[0];
       const T missing = (depth > 0 ? T(options.rate) * depth : depth) - closing;
       const T push = std::max(T(0), pushes[c] + missing / assembly.op.normal(c)),
               change = push - std::exchange(pushes[c], push);
@@ -93,8 +92,8 @@ void check_gaps(const Assembly<S>& assembly, const OverlapCorrection<S>& correct
                 double rounding) {
   for (std::size_t c = 0; c < assembly.contacts.size(); ++c) {
     const Contact<S>& contact = assembly.contacts[c];
-    const double change = double(BodyDelassus<S>::relative_velocity(
-        contact, correction.shifts()[contact.a], correction.shifts()[contact.b])[0]);
+    const double change = double(relative_velocity(contact, correction.shifts()[contact.a],
+                                                   correction.shifts()[contact.b])[0]);
     CHECK(double(contact.gap) + double(correction.gap_change(contact)) ==
           doctest::Approx(double(contact.gap) + change).epsilon(rounding));
   }

@@ -77,7 +77,7 @@ struct Scene {
       if (std::binary_search(keys.begin(), keys.end(), found.keys[c])) continue;
       const Contact<S>& contact = found.points[c];
       const auto closing = [&](const auto& twist) {
-        return BodyDelassus<S>::relative_velocity(contact, twist[contact.a], twist[contact.b])[0];
+        return relative_velocity(contact, twist[contact.a], twist[contact.b])[0];
       };
       const double gap = contact.gap + closing(shifts) + h * closing(velocity);
       worst = std::max(worst, -gap / size);

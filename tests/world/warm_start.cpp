@@ -75,7 +75,7 @@ TEST_CASE_TEMPLATE("two boxes whose features have changed names: all points star
   REQUIRE(now.size() == count);
   number_impulses(before);
   CHECK(warm_start(before, now) == 0);  // no key is that of a point before
-  CHECK(hand_over(before, now, ImpulseTurn<S>()) == count);
+  CHECK(hand_over(before, now, before.impulses, now.impulses, ImpulseTurn<S>()) == count);
   for (std::size_t c = 0; c < count; ++c) {
     CAPTURE(c);
     const std::size_t from = nearest(before, now.points[c].lever_a);
@@ -100,7 +100,7 @@ TEST_CASE_TEMPLATE(
   now.keys.back().feature.value += 1;
   now.impulses.assign(now.size(), Contacts<S>::Impulse::Zero());
   CHECK(warm_start(before, now) == now.size() - 1);
-  CHECK(hand_over(before, now, ImpulseTurn<S>()) == 2);
+  CHECK(hand_over(before, now, before.impulses, now.impulses, ImpulseTurn<S>()) == 2);
   typename S::Vector all = S::Vector::Zero(), left = S::Vector::Zero();
   for (const auto& impulse : before.impulses) all += impulse;
   for (const auto& impulse : now.impulses) {
@@ -113,7 +113,7 @@ TEST_CASE_TEMPLATE(
   auto other = now;
   for (ContactKey& key : other.keys) key.b = 2;
   CHECK(warm_start(before, other) == 0);
-  CHECK(hand_over(before, other, ImpulseTurn<S>()) == 0);
+  CHECK(hand_over(before, other, before.impulses, other.impulses, ImpulseTurn<S>()) == 0);
 }
 
 TEST_CASE_TEMPLATE(

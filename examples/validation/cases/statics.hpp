@@ -131,9 +131,9 @@ double speed_of_loaded_contacts(const World<ShapeT>& world) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const moreau::Contact<S>& point = contacts.points[c];
     if (contacts.impulses[c][0] > 0)
-      largest = std::max(largest, double(moreau::BodyDelassus<S>::relative_velocity(
-                                             point, velocity[point.a], velocity[point.b])
-                                             .norm()));
+      largest = std::max(
+          largest,
+          double(moreau::relative_velocity(point, velocity[point.a], velocity[point.b]).norm()));
   }
   return largest;
 }

@@ -18,16 +18,18 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "moreau/contact/contact.hpp"
-#include "moreau/contact/detail/contact_lanes.hpp"
+#include "moreau/contact/contact_islands.hpp"
 #include "moreau/contact/detail/operator_cell.hpp"
+#include "moreau/contact/detail/operator_frames.hpp"
 #include "moreau/contact/detail/operator_point.hpp"
+#include "moreau/contact/detail/point_assembly.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -68,23 +70,21 @@ class BodyDelassus {
                 const Team& team = {}) {
     points_.resize(contacts.size());
     heads_.resize(contacts.size());
-    if constexpr (Turn::turns) turns_.resize(contacts.size());
+    frames_.resize(contacts.size());
+    islands_.forget();
     masses_.resize(roots.size());
     changes_.assign(roots.size(), PaddedTwist::Zero());
     cell_.forget();
-    if constexpr (Springs) {
-      springs_.compliance.assign(compliance.begin(), compliance.end());
-      springs_.stretch.assign(compliance.size(), Vector::Zero());
-    }
-    team.share_each(roots.size(), 128,
-                    [&](std::size_t i) { masses_[i] = InverseMass<S>(roots[i]); });
-    team.share(contacts.size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; c += Lanes::lanes)
-        assemble_some(c, std::min(end, c + Lanes::lanes), contacts, free);
+    springs_.assign(compliance);
+    freedoms_.resize(roots.size());
+    team.share_each(roots.size(), 128, [&](std::size_t i) {
+      masses_[i] = InverseMass<S>(roots[i]);
+      freedoms_[i] = masses_[i].rotates() ? 2 : masses_[i].moves();
     });
-    if constexpr (Couples)
-      team.share_each(contacts.size(), 64,
-                      [&](std::size_t c) { assemble_couple(c, contacts[c], roots, free); });
+    const detail::PointAssembly<S, Couples, Springs> assembly{contacts, masses_, free,   springs_,
+                                                              points_,  heads_,  frames_};
+    longest_lever_ = assembly.assemble(team);
+    if constexpr (Couples) assembly.assemble_couples(roots, team);
   }
 
   /// The numbers of point(c), in their order in memory; without couples.
@@ -116,8 +116,17 @@ class BodyDelassus {
   const typename S::Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
   /// From the centre of body b to the contact point, world axes [m].
   const typename S::Vector& lever_b(std::size_t c) const { return points_[c].lever_b; }
+  /// The small islands of the contacts. The first call after assemble() finds them.
+  const detail::ContactIslands& islands() {
+    islands_.find_once(*this);
+    return islands_;
+  }
   /// M^-1 of a body.
   const InverseMass<S>& inverse_mass(std::size_t body) const { return masses_[body]; }
+  /// Of each body: 0 if no impulse moves it, 1 if impulses move it, 2 if they rotate it as well.
+  std::span<const unsigned char> freedoms() const { return freedoms_; }
+  /// The longest lever of a body that impulses rotate [m].
+  Scalar longest_lever() const { return longest_lever_; }
   /// M^-1 of all bodies.
   std::span<const InverseMass<S>> inverse_masses() const { return masses_; }
   /// Trace of W_cc + D_cc [1/kg].
@@ -141,7 +150,7 @@ class BodyDelassus {
   /// D_cc r_c.
   Vector velocity(std::size_t c) const {
     Vector u = velocity_of_bodies(c);
-    if constexpr (Springs) u += springs_.stretch[c];
+    if constexpr (Springs) u += springs_.stretches[c];
     return u;
   }
   /// The same without D_cc r_c.
@@ -163,14 +172,14 @@ class BodyDelassus {
   Scalar normal_velocity(std::size_t c) const {
     const Scalar u = points_[c].free[0] + points_[c].frame.col(0).dot(change_between(points_[c]));
     if constexpr (Springs)
-      return u + springs_.stretch[c][0];
+      return u + springs_.stretches[c][0];
     else
       return u;
   }
   /// Applies an impulse, in frame(c), to b, its opposite to a, and to the springs [N s].
   void apply(std::size_t c, const Vector& impulse) {
     apply_to_bodies(c, impulse);
-    stretch(c, impulse);
+    springs_.stretch(c, impulse);
     if (cell_.exists()) cell_.push(points_[c], impulse);
   }
   /// The same without the springs.
@@ -186,24 +195,42 @@ class BodyDelassus {
     }
   }
 
-  /// Makes the rows r of impulses, Contacts::impulses: turned into frame(c), and couple / R in place of couples.
-  void to_rows(std::span<Vector> impulses, const Team& team = {}) const {
-    change_rows(impulses, team, false);
+  /// @name Frames of the contacts and rows of the operator
+  /// The tangents of frame(c) are turned against those of the Contact. The row of a couple is couple / R.
+  /// @{
+
+  /// Makes rows of vectors in the frames of the contacts, such as Contacts::impulses.
+  /// @param rows in: in the frames of the contacts, with couples; out: rows
+  void to_rows(std::span<Vector> rows, const Team& team = {}) const {
+    frames_.to_rows(rows, points_, team);
   }
-  /// Makes impulses of the rows r.
-  void from_rows(std::span<Vector> impulses, const Team& team = {}) const {
-    change_rows(impulses, team, true);
+  /// Makes vectors in the frames of the contacts of rows.
+  /// @param impulses out: in the frames of the contacts, with couples
+  void from_rows(std::span<const Vector> rows, std::span<Vector> impulses,
+                 const Team& team = {}) const {
+    frames_.from_rows(rows, impulses, points_, team);
   }
   /// A vector in the frame of a Contact, in frame(c).
-  typename S::Vector turned([[maybe_unused]] std::size_t c, typename S::Vector vector) const {
-    if constexpr (Turn::turns) turns_[c].apply(vector, 1, false);
-    return vector;
+  typename S::Vector turned(std::size_t c, const typename S::Vector& vector) const {
+    return frames_.turned(c, vector, false);
   }
   /// A vector in frame(c), in the frame of the Contact.
-  typename S::Vector turned_back([[maybe_unused]] std::size_t c, typename S::Vector vector) const {
-    if constexpr (Turn::turns) turns_[c].apply(vector, 1, true);
-    return vector;
+  typename S::Vector turned_back(std::size_t c, const typename S::Vector& vector) const {
+    return frames_.turned(c, vector, true);
   }
+  /// The row of contact c of relative velocities of its bodies.
+  /// @param velocity of the point, in the frame of the Contact [m/s]
+  /// @param spin     w_b - w_a, world axes; without couples it does not count [rad/s]
+  MOREAU_INLINED Vector row(std::size_t c, const typename S::Vector& velocity,
+                            [[maybe_unused]] const typename S::Angular& spin) const {
+    const typename S::Vector along = turned(c, velocity);
+    Vector row;
+    for (int k = 0; k < S::dim; ++k) row[k] = along[k];
+    if constexpr (Couples)
+      angular<S>(row) = radius(c) * (S::angular_frame(frame(c)).transpose() * spin);
+    return row;
+  }
+  /// @}
 
   /// @name All impulses at once
   /// Momenta are added up for each body, and then divided by its mass, which takes less time than
@@ -213,14 +240,14 @@ class BodyDelassus {
   /// Removes all impulses: every body has its free velocity.
   void clear() {
     changes_.assign(changes_.size(), PaddedTwist::Zero());
-    if constexpr (Springs) springs_.stretch.assign(springs_.stretch.size(), Vector::Zero());
+    springs_.clear();
   }
   /// Gives both bodies the momentum of an impulse at contact c, in frame(c) [N s], and stretches its springs.
   void push(std::size_t c, const Vector& impulse) {
-    const Momentum momentum = points_[c].momentum_of(impulse);
-    take(points_[c].b, momentum);
-    give(points_[c].a, momentum);
-    stretch(c, impulse);
+    const auto momentum = points_[c].momentum_of(impulse);
+    momentum.give(changes_[points_[c].b]);
+    momentum.take_from(changes_[points_[c].a]);
+    springs_.stretch(c, impulse);
   }
   /// Makes velocities of the momenta.
   void move(const Team& team = {}) {
@@ -262,8 +289,9 @@ class BodyDelassus {
       for (int k = 0; k < S::dofs; ++k) changes_[i][k] = change[std::size_t(k)];
     });
     if constexpr (Springs) {
-      springs_.stretch.assign(springs_.stretch.size(), Vector::Zero());
-      team.share_each(impulses.size(), 256, [&](std::size_t c) { stretch(c, impulses[c]); });
+      springs_.clear();
+      team.share_each(impulses.size(), 256,
+                      [&](std::size_t c) { springs_.stretch(c, impulses[c]); });
     }
     move_cell(impulses);
   }
@@ -280,135 +308,23 @@ class BodyDelassus {
     detail::prefetch(points_.data() + first, count * sizeof(Point));
   }
 
-  /// u of a contact whose bodies have the velocities (v, w) [m/s, rad/s], in the frame of the Contact [m/s].
-  static typename S::Vector relative_velocity(const Contact<S>& contact, const typename S::Twist& a,
-                                              const typename S::Twist& b) {
-    typename S::Vector difference = detail::velocity_at<S>(b, contact.lever_b);
-    difference -= detail::velocity_at<S>(a, contact.lever_a);
-    return detail::inlined_transposed_product(contact.frame, difference);
-  }
-
  private:
-  using Lanes = detail::ContactLanes<S>;
   using Point = detail::OperatorPoint<S, Couples>;
-  using Turn = detail::TangentTurn<S>;
-  using Momentum = typename Point::Momentum;
-  /// The data of a contact that a pass reads if it does not need the point: a pass over these reads less memory.
-  struct Head {
-    std::array<std::uint32_t, 2> bodies;
-    Scalar trace;
-  };
-
-  /// to_rows(), or back.
-  void change_rows([[maybe_unused]] std::span<Vector> impulses, [[maybe_unused]] const Team& team,
-                   [[maybe_unused]] bool back) const {
-    if constexpr (Couples || Turn::turns)
-      team.share_each(impulses.size(), 256, [&](std::size_t c) {
-        Vector& row = impulses[c];
-        if constexpr (Turn::turns) turns_[c].apply(row, 1, back);
-        if constexpr (Couples) {
-          [[maybe_unused]] constexpr int couples = S::dim;  // the rows before the couple
-          if constexpr (Turn::turns) turns_[c].apply(row, couples + 1, back);
-          typename S::Angular couple = angular<S>(row);
-          if (back)
-            couple *= points_[c].radius;
-          else if (points_[c].radius > 0)
-            couple /= points_[c].radius;
-          angular<S>(row) = couple;
-        }
-      });
-  }
-  void give(std::uint32_t a, const Momentum& momentum) {
-    linear<S>(changes_[a]) -= momentum.push;
-    angular<S>(changes_[a]) -= momentum.moment_a;
-    if constexpr (Couples) angular<S>(changes_[a]) -= momentum.couple;
-  }
-  void take(std::uint32_t b, const Momentum& momentum) {
-    linear<S>(changes_[b]) += momentum.push;
-    angular<S>(changes_[b]) += momentum.moment_b;
-    if constexpr (Couples) angular<S>(changes_[b]) += momentum.couple;
-  }
-  void stretch([[maybe_unused]] std::size_t c, [[maybe_unused]] const Vector& impulse) {
-    if constexpr (Springs) stretch_spring(springs_.stretch[c], springs_.compliance[c], impulse);
-  }
-  MOREAU_COMPILED_ONCE static void stretch_spring(Vector& stretch, const Vector& compliance,
-                                                  const Vector& impulse) {
-    stretch += compliance.cwiseProduct(impulse);
-  }
-
-  /// @param end at most as many contacts as there are lanes
-  MOREAU_COMPILED_ONCE void assemble_some(std::size_t begin, std::size_t end,
-                                          std::span<const Contact<S>> contacts,
-                                          std::span<const typename S::Twist> free) {
-    constexpr std::size_t lanes = Lanes::lanes;
-    Lanes some;
-    std::array<const Contact<S>*, lanes> of_lane;
-    std::array<const InverseMass<S>*, lanes> mass_a, mass_b;
-    std::array<const typename S::Twist*, lanes> free_a, free_b;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t c = std::min(begin + lane, end - 1);
-      const Contact<S>& contact = contacts[c];
-      of_lane[lane] = &contact;
-      mass_a[lane] = &masses_[contact.a], mass_b[lane] = &masses_[contact.b];
-      free_a[lane] = &free[contact.a], free_b[lane] = &free[contact.b];
-      if constexpr (Springs)
-        for (std::size_t d = 0; d < S::dim; ++d)
-          some.compliance[d][lane] = springs_.compliance[c][Eigen::Index(d)];
-    }
-    some.set_contacts(of_lane);
-    some.a.set_bodies(mass_a, free_a);
-    some.b.set_bodies(mass_b, free_b);
-    some.assemble();
-    if constexpr (!Couples) {
-      Point unused;
-      std::array<Point*, lanes> points;
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        points[lane] = begin + lane < end ? &points_[begin + lane] : &unused;
-      some.write(points);
-    }
-    for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t lane = c - begin;
-      const Contact<S>& contact = contacts[c];
-      Point& point = points_[c];
-      point.a = contact.a;
-      point.b = contact.b;
-      heads_[c] = {{contact.a, contact.b}, some.trace(lane)};
-      if constexpr (Turn::turns) turns_[c] = some.turn(lane);
-      if constexpr (Couples) {
-        point.frame.col(0) = contact.frame.col(0);
-        some.get_tangents(lane, point.frame);
-        point.lever_a = contact.lever_a;
-        point.lever_b = contact.lever_b;
-        point.block.point = some.block(lane);
-        linear<S>(point.free) = some.free_velocity(lane);
-      }
-    }
-  }
-  /// The rows of the couple, after those of the point.
-  void assemble_couple(std::size_t c, const Contact<S>& contact,
-                       std::span<const MobilityRoot<S>> roots,
-                       std::span<const typename S::Twist> free) {
-    Point& point = points_[c];
-    point.assemble_couple(contact, roots, masses_[point.a], masses_[point.b], free);
-    Block& block = point.block;
-    if constexpr (Springs) block.spin.diagonal() += angular<S>(springs_.compliance[c]);
-    // Two bodies whose rotation is prescribed: any positive value will do, see ContactLanes.
-    if (block.spin.isZero(0)) block.spin.diagonal().setConstant(block.point.normal);
-    heads_[c].trace = block.trace();
-  }
-
   /// Change of the relative velocity by the impulses, world axes [m/s].
   typename S::Vector change_between(const Point& point) const {
-    typename S::Vector difference = detail::velocity_at<S>(changes_[point.b], point.lever_b);
-    difference -= detail::velocity_at<S>(changes_[point.a], point.lever_a);
+    typename S::Vector difference = detail::relative_velocity_at<S>(
+        changes_[point.a], point.lever_a, changes_[point.b], point.lever_b);
     if (cell_.exists()) cell_.add_velocity(point, difference);
     return difference;
   }
 
   List<Point> points_;
-  List<Head> heads_;
-  List<Turn> turns_;  // empty in the plane
+  List<detail::OperatorHead<Scalar>> heads_;
+  detail::OperatorFrames<S, Couples> frames_;
+  detail::ContactIslands islands_;
   List<InverseMass<S>> masses_;
+  List<unsigned char> freedoms_;
+  Scalar longest_lever_ = 0;
   List<PaddedTwist> changes_;
   detail::OperatorCell<S> cell_;
   [[no_unique_address]] detail::SpringRows<Vector, Springs> springs_;

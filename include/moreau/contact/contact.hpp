@@ -103,8 +103,7 @@ struct Contacts : DetectedContacts<S> {
   /// twisting resistance on b [N m s], in the angular frame.
   using Impulse = Eigen::Matrix<typename S::Scalar, Rows, 1>;
 
-  /// One per point. Within a step, from the warm start to the end of the solve, they are rows of the operator: in its
-  /// frames, couple / R in place of the couple (BodyDelassus::to_rows()).
+  /// One per point; zero from detection until the contact problem is solved.
   List<Impulse> impulses;
   /// One per point: index of the law's variant, see StatefulLaw; the step ends by choosing that of the next step.
   List<std::uint32_t> variants;

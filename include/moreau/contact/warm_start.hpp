@@ -188,20 +188,20 @@ void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>&
 /// Hands the impulses of contacts whose key is gone to the nearest contact of the same pair of
 /// bodies, if there is one: feature keys of contacts between faces change while the faces stay in
 /// contact. A contact without an impulse of its own takes the variant of the law, too.
-/// @param before,now each sorted by its keys; the impulses of `now` are those of
-///                   warm_start(), or of carry() with a SpringTurn
+/// @param before,now each sorted by its keys
+/// @param old        one per contact of `before`
+/// @param out        in and out: one per contact of `now`, as carry() left it
 /// @param turn       ImpulseTurn or SpringTurn
 /// @returns how many contacts handed their impulse over
-template <class S, int Rows>
-std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const auto& turn) {
+template <class S, int Rows, class Row>
+std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const List<Row>& old,
+                      List<Row>& out, const auto& turn) {
   std::size_t count = 0;
   detail::for_each_heir<S>(
-      before, now, before.impulses, [](const ContactKey&) { return true; },
+      before, now, old, [](const ContactKey&) { return true; },
       [&](std::size_t i, std::size_t j) {
-        if (now.impulses[i].isZero(0) && !before.variants.empty())
-          now.variants[i] = before.variants[j];
-        now.impulses[i] +=
-            detail::carried<S>(turn, before.points[j], now.points[i], before.impulses[j]);
+        if (out[i].isZero(0) && !before.variants.empty()) now.variants[i] = before.variants[j];
+        out[i] += detail::carried<S>(turn, before.points[j], now.points[i], old[j]);
         ++count;
       });
   return count;

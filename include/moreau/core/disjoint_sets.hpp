@@ -30,10 +30,15 @@ class DisjointSets {
   }
   /// @returns whether they were in two sets
   bool unite(std::size_t i, std::size_t j) {
-    std::uint32_t a = find(i), b = find(j);
-    if (b < a) std::swap(a, b);
-    parent_[b] = a;
+    const std::uint32_t a = find(i), b = find(j);
+    join(a, b);
     return a != b;
+  }
+  /// unite() of the smallest numbers of two sets.
+  /// @returns the smallest number of both
+  std::uint32_t join(std::uint32_t a, std::uint32_t b) {
+    if (b < a) std::swap(a, b);
+    return parent_[b] = a;
   }
 
  private:

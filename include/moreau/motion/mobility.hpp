@@ -53,6 +53,10 @@ class InverseMass {
       if (x != 0) return true;
     return false;
   }
+  /// Whether impulses rotate the body.
+  bool rotates() const {
+    return std::any_of(angular_.begin(), angular_.end(), [](Scalar x) { return x != 0; });
+  }
   /// Whether the mass of the body is the same along all axes. That of a wall
   /// with a mass is not: it moves along one.
   bool is_isotropic() const {

@@ -23,6 +23,8 @@ class BodyChunks {
   /// @param least bodies of a chunk, which has up to twice as many: the number of chunks is a power of two, so that
   ///              teams of two, four, .. members have equally many
   void assign(std::size_t bodies, std::size_t least) {
+    if (of_body_.size() == bodies && least_ == least) return;
+    least_ = least;
     const std::size_t count = std::bit_floor(bodies / least);
     count_ = count < 2 ? 0 : count;
     of_body_.assign(bodies, shared);
@@ -43,7 +45,7 @@ class BodyChunks {
   }
 
  private:
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, least_ = 0;
   List<std::uint32_t> of_body_;
 };
 

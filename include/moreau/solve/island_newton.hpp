@@ -64,12 +64,11 @@ class IslandNewton {
   /// Takes an island.
   /// @param op       operator of the problem
   /// @param contacts of the island
-  /// @param moves    whether impulses move a body, one entry per body
   /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
   /// @param friction_of function: contact -> mu [-]
   template <class Operator>
-  void assign(const Operator& op, std::span<const std::uint32_t> contacts,
-              std::span<const unsigned char> moves, const auto& free_of, const auto& friction_of) {
+  void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& free_of,
+              const auto& friction_of) {
     Points& points = step_.points();
     points.start(op.body_count());
     for (const std::uint32_t c : contacts) {
@@ -79,7 +78,7 @@ class IslandNewton {
         compliance = op.compliance(c).template head<S::dim>().template cast<double>();
       points.add({c, a, b, op.frame(c), op.lever_a(c), op.lever_b(c),
                   free_of(c).template cast<double>(), compliance, friction_of(c)},
-                 op.inverse_masses(), moves);
+                 op.inverse_masses(), op.freedoms());
     }
     points.finish();
     step_.make_room();

@@ -5,11 +5,16 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -107,6 +112,46 @@ BondPlace<S> place_of(const Bond<S>& bond, const Bodies<S>& bodies,
   place.middle_a = at_a + place.stretch / 2;
   place.middle_b = at_b - place.stretch / 2;
   return place;
+}
+
+/// Counts the cells to the image of b at a: a user may have moved bodies by whole cells, or set another cell.
+template <class S>
+MOREAU_COLD void count_cells(Bond<S>& bond, const Bodies<S>& bodies, const PeriodicCell<S>& cell) {
+  using Vector = typename S::Vector;
+  const std::size_t a = bond.a.index(), b = bond.b.index();
+  const Vector at_a = bodies.pose[a].position + bodies.axes(a) * bond.anchor_a,
+               at_b = bodies.pose[b].position + bodies.axes(b) * bond.anchor_b;
+  bond.cells = cell.cells(Vector(at_a - at_b));
+}
+/// A bond at the middle of contact points of two bodies.
+/// @param points at least one
+template <class S>
+Bond<S> bond_of(std::span<const Contact<S>> points, const Bodies<S>& bodies,
+                const PeriodicCell<S>& cell) {
+  using Scalar = typename S::Scalar;
+  using Vector = typename S::Vector;
+  Bond<S> bond;
+  Vector lever_a = Vector::Zero(), lever_b = Vector::Zero(), normal = Vector::Zero();
+  for (const Contact<S>& point : points) {
+    lever_a += point.lever_a;
+    lever_b += point.lever_b;
+    normal += point.frame.col(0);
+  }
+  lever_a /= Scalar(points.size());
+  lever_b /= Scalar(points.size());
+  // Normals of several parts that cancel: any will do.
+  normal = normal.norm() > Scalar(0.1) ? normal.normalized() : Vector(points[0].frame.col(0));
+  const std::uint32_t a = points[0].a, b = points[0].b;
+  const typename S::Matrix axes_a = bodies.axes(a), axes_b = bodies.axes(b),
+                           frame = S::contact_frame(normal);
+  bond.a = bodies.id[a];
+  bond.b = bodies.id[b];
+  bond.anchor_a = axes_a.transpose() * lever_a;
+  bond.anchor_b = axes_b.transpose() * lever_b;
+  bond.frame_a = axes_a.transpose() * frame;
+  bond.frame_b = axes_b.transpose() * frame;
+  count_cells(bond, bodies, cell);
+  return bond;
 }
 
 }  // namespace detail

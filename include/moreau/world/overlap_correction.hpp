@@ -25,12 +25,14 @@
 #include <utility>
 
 #include "moreau/contact/body_delassus.hpp"
+#include "moreau/contact/contact_islands.hpp"
+#include "moreau/contact/relative_velocity.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/parallel/team.hpp"
-#include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/overlap_sweeps.hpp"
@@ -87,7 +89,7 @@ class OverlapCorrection {
   /// @returns how many contacts of this process were deeper than the slop; if none, all shifts are
   ///          zero. Its work and largest_shift are 0: they need the forces
   template <class Operator>
-  OverlapCorrectionReport solve(const Operator& op, std::span<const Contact<S>> contacts,
+  OverlapCorrectionReport solve(Operator& op, std::span<const Contact<S>> contacts,
                                 Scalar grain_size, const Team& team = {},
                                 SharedBodies* shared = nullptr) {
     OverlapCorrectionReport report;
@@ -96,23 +98,21 @@ class OverlapCorrection {
     if (!options_.enabled) return report;
     const Scalar slop = static_cast<Scalar>(options_.slop) * grain_size,
                  largest = static_cast<Scalar>(options_.max_shift) * grain_size;
-    sweeps_.start(op.inverse_masses());
     const Depths depths = find_depths(contacts, slop, largest, team);
     report.corrected = depths.corrected;
     report.limited = depths.limited;
     if (detail::sum_over(shared, double(report.corrected)) == 0) return report;
+    sweeps_.start(op.body_count());
     if (options_.islands && !shared) correct_islands(op, contacts, slop, largest);
     const Scalar guess =
         5 * depths.asked / static_cast<Scalar>(std::max<std::size_t>(1, depths.corrected));
-    shifted_.resize(shifts_.size());
+    shifted_.assign(shifts_.size(), 0);
     sweeps_.run(
-        options_.sweeps, op, contacts, std::span<const Scalar>(depths_), guess,
-        std::sqrt(depths.longest), [&](Scalar depth) { return target(depth, largest); },
+        options_.sweeps, op, contacts, std::span<const Scalar>(depths_),
+        std::span<const Scalar>(deepest_), guess,
+        [&](Scalar depth) { return target(depth, largest); },
         [&](std::size_t i, const typename S::Twist& shift) {
-          if (shift.isZero(0))
-            shifted_[i] = 0;
-          else
-            limit(i, shift, largest, grain_size / 2);
+          limit(i, shift, largest, grain_size / 2);
         },
         team, shared);
     return report;
@@ -124,7 +124,7 @@ class OverlapCorrection {
   /// By how much the shifts of the last solve() change the gap of one of its contacts, to first order [m].
   Scalar gap_change(const Contact<S>& contact) const {
     if (shifted_.empty() || !(shifted_[contact.a] || shifted_[contact.b])) return 0;
-    return BodyDelassus<S>::relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
+    return change_by_shifts(contact);
   }
   const Options& options() const { return options_; }  ///< as given
 
@@ -133,38 +133,41 @@ class OverlapCorrection {
   friend struct detail::StateAccess;
   auto serialized_members() { return std::tie(options_, shifts_); }
 
+  // By itself: most contacts are not shifted, and gap_change() then takes few instructions.
+  MOREAU_COMPILED_ONCE Scalar change_by_shifts(const Contact<S>& contact) const {
+    return relative_velocity(contact, shifts_[contact.a], shifts_[contact.b])[0];
+  }
   /// Of all contacts.
   struct Depths {
     std::size_t corrected = 0, limited = 0;  // as in the report
-    Scalar asked = 0;    // sum of the changes of gaps that deep contacts ask for [m]
-    Scalar longest = 0;  // square of the longest lever of a body that rotates [m^2]
-    void add(const Depths& other) {
-      asked += other.asked;
-      corrected += other.corrected;
-      limited += other.limited;
-      longest = std::max(longest, other.longest);
-    }
+    Scalar asked = 0;  // sum of the changes of gaps that deep contacts ask for [m]
   };
-  /// Fills depths_.
+  /// Fills depths_ and deepest_.
   Depths find_depths(std::span<const Contact<S>> contacts, Scalar slop, Scalar largest,
                      const Team& team) {
+    constexpr std::size_t block = detail::OverlapSweeps<S>::block;
     depths_.resize(contacts.size());
-    return detail::sum_of_parts<Depths>(
-        team, contacts.size(), [&](std::size_t begin, std::size_t end) {
-          Depths depths;
-          for (std::size_t c = begin; c < end; ++c) {
-            const Contact<S>& contact = contacts[c];
-            const Scalar depth = depths_[c] = -(contact.gap + slop);
-            if (depth > 0)
-              depths.add({1, static_cast<Scalar>(options_.rate) * depth > largest,
-                          target(depth, largest), 0});
-            if (sweeps_.rotates(contact.a))
-              depths.longest = std::max(depths.longest, contact.lever_a.squaredNorm());
-            if (sweeps_.rotates(contact.b))
-              depths.longest = std::max(depths.longest, contact.lever_b.squaredNorm());
-          }
-          return depths;
-        });
+    deepest_.resize((contacts.size() + block - 1) / block);
+    const auto end_of = [&](std::size_t k) { return std::min((k + 1) * block, contacts.size()); };
+    team.share(deepest_.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        Scalar deepest = -std::numeric_limits<Scalar>::infinity();
+        for (std::size_t c = k * block; c < end_of(k); ++c)
+          deepest = std::max(deepest, depths_[c] = -(contacts[c].gap + slop));
+        deepest_[k] = deepest;
+      }
+    });
+    Depths depths;
+    for (std::size_t k = 0; k < deepest_.size(); ++k) {
+      if (!(deepest_[k] > 0)) continue;
+      for (std::size_t c = k * block; c < end_of(k); ++c) {
+        if (!(depths_[c] > 0)) continue;
+        ++depths.corrected;
+        depths.limited += static_cast<Scalar>(options_.rate) * depths_[c] > largest;
+        depths.asked += target(depths_[c], largest);
+      }
+    }
+    return depths;
   }
 
   /// Least change of a gap [m].
@@ -176,14 +179,12 @@ class OverlapCorrection {
   /// Corrects the small islands by the direct method, as far as it succeeds. What is left of overlaps that were
   /// corrected before is small against the slop, and left to the sweeps.
   template <class Operator>
-  void correct_islands(const Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
+  void correct_islands(Operator& op, std::span<const Contact<S>> contacts, Scalar slop,
                        Scalar largest) {
-    constexpr std::size_t most_bodies = 200;
     constexpr double first_epsilon = 1e-4;
     constexpr typename Newton::Precision precision{1e-3, first_epsilon, 12};
-    islands_.find(op, most_bodies);
+    const detail::ContactIslands& islands = op.islands();
     pushes_.resize(contacts.size());  // here, so that a later step need not allocate
-    bool any = false;
     const auto is_deep = [&](std::uint32_t c) { return depths_[c] > slop / 100; };
     const auto free = [&](std::size_t c) {
       typename S::Vector offset = S::Vector::Zero();
@@ -191,14 +192,14 @@ class OverlapCorrection {
       return offset;
     };
     const auto frictionless = [](std::size_t) { return 0.0; };
-    for (std::size_t k = 0; k < islands_.size(); ++k) {
-      const auto own = islands_.contacts(k);
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+      const auto own = islands.contacts(k);
       // The bodies touch like those of a column, an arch or a tree if no more pairs do than there are bodies.
-      if (own.size() < 2 || islands_.pairs(k) > islands_.bodies(k) ||
+      if (own.size() < 2 || islands.pairs(k) > islands.bodies(k) ||
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
-      if (!std::exchange(any, true)) pushes_.assign(contacts.size(), S::Vector::Zero());
-      newton_.assign(op, own, islands_.moves(), free, frictionless);
+      for (const std::uint32_t c : own) pushes_[c].setZero();
+      newton_.assign(op, own, free, frictionless);
       newton_.start(pushes_);
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);
@@ -225,10 +226,10 @@ class OverlapCorrection {
   using Newton = detail::IslandNewton<S>;
 
   Options options_;
-  detail::ContactIslands islands_;
   Newton newton_;
   List<typename S::Vector> pushes_;  // one per contact, in its frame [kg m]
   List<Scalar> depths_;              // of contacts: overlap beyond the slop [m]
+  List<Scalar> deepest_;             // of blocks of contacts, OverlapSweeps::block: the largest [m]
   detail::OverlapSweeps<S> sweeps_;
   List<typename S::Twist> shifts_;
   List<unsigned char> shifted_;  // bodies whose shift is not zero; empty: none

@@ -232,21 +232,7 @@ class Simulation : public BodyControl<ShapeT> {
   void set_contact_points(ContactPoints points) { detector_.keep_points(points); }
   ContactPoints contact_points() const { return detector_.kept_points(); }  ///< all unless set
   /// Sets the laws from the next step on; another number of materials throws.
-  void set_materials(const Materials<Law>& materials) {
-    require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
-            materials.count(), "must stay as it was");
-    const Materials<Law> before = std::exchange(materials_, materials);
-    if (!cell().is_open() && reach() > detail::reach_of<S>(before)) {
-      try {
-        detector_.set_cell(cell(), lengths(), "Simulation::set_materials");
-      } catch (...) {
-        materials_ = before;
-        throw;
-      }
-    }
-    if constexpr (set_valued) dynamics_.keep_materials(before);
-    assembly_.set_changed();
-  }
+  void set_materials(const Materials<Law>& materials);
 
   /// Bonds all pairs of bodies, or of those in `among`, whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
   /// contact points. The laws of their materials have the strengths.

@@ -81,8 +81,8 @@ std::array<double, 2> land(const Grain<S>& grain, const Law& law, const Landing&
   }
   for (std::size_t c = 0; c < world.contacts.size(); ++c)
     if (std::find(touched.begin(), touched.end(), world.contacts.keys[c]) != touched.end())
-      restitution += BodyDelassus<S>::relative_velocity(
-          world.contacts.points[c], world.bodies.velocity[0], world.bodies.velocity[1])[0];
+      restitution += relative_velocity(world.contacts.points[c], world.bodies.velocity[0],
+                                       world.bodies.velocity[1])[0];
   return {world.energy() / before, restitution / (speed * double(touched.size()))};
 }
 

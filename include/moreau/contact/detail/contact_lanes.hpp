@@ -10,6 +10,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/detail/operator_point.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/law/lane_block.hpp"
 #include "moreau/law/local_block.hpp"
@@ -90,11 +91,11 @@ class ContactLanes {
     aligned_ = aligned_block<S, Lanes>(w);
     make_regular();
     turn_tangents();
-    const Vector of_a = Algebra::point_velocity(a.velocity, a.lever);
-    const Vector of_b = Algebra::point_velocity(b.velocity, b.lever);
+    const Vector apart =
+        relative_velocity_of_lanes<Algebra>(a.velocity, a.lever, b.velocity, b.lever);
     for (std::size_t d = 0; d < dim; ++d) {
-      free_[d] = axes_[d][0] * (of_b[0] - of_a[0]);
-      for (std::size_t k = 1; k < dim; ++k) free_[d] += axes_[d][k] * (of_b[k] - of_a[k]);
+      free_[d] = axes_[d][0] * apart[0];
+      for (std::size_t k = 1; k < dim; ++k) free_[d] += axes_[d][k] * apart[k];
     }
     // No impulse changes the normal velocity, as between a wall that moves along the tangent and a grain of
     // prescribed motion: the contact does not act.
@@ -104,6 +105,23 @@ class ContactLanes {
   }
 
   // Results of assemble().
+  /// Takes the longest lever of a body that impulses rotate.
+  /// @param longest in, out: its square in each lane [m^2]
+  void find_longest_lever(Values& longest) const {
+    for (const Side* side : {&a, &b}) {
+      Values square = side->lever[0] * side->lever[0], turn{};
+      for (std::size_t k = 1; k < dim; ++k) square += side->lever[k] * side->lever[k];
+      for (std::size_t k = 0; k < Algebra::angular; ++k)
+        turn += side->angular[Algebra::entry(k, k)];
+      longest = ((turn > Values{}) & (square > longest)) ? square : longest;
+    }
+  }
+  /// The largest lane.
+  static T largest(const Values& values) {
+    T largest = values[0];
+    for (std::size_t l = 1; l < lanes; ++l) largest = values[l] > largest ? values[l] : largest;
+    return largest;
+  }
   /// Writes the frames, levers, blocks and free velocities.
   void write(const std::array<OperatorPoint<S, false>*, lanes>& points) const {
     using Numbers = PointNumbers<S>;

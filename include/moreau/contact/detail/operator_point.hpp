@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,11 +32,31 @@ struct CoupleArm<S, true> {
 
 /// D of the contacts with springs, and what their impulses have stretched; nothing without springs.
 template <class Vector, bool Springs>
-struct SpringRows {};
+struct SpringRows {
+  void assign(std::span<const Vector>) const {}
+  void clear() const {}
+  void stretch(std::size_t, const Vector&) const {}
+};
 template <class Vector>
 struct SpringRows<Vector, true> {
   List<Vector> compliance;  ///< diagonal of D_cc [1/kg]
-  List<Vector> stretch;     ///< D_cc r_c [m/s]
+  List<Vector> stretches;   ///< D_cc r_c [m/s]
+
+  /// Sets D; without stretches.
+  void assign(std::span<const Vector> diagonals) {
+    compliance.assign(diagonals.begin(), diagonals.end());
+    clear();
+  }
+  void clear() { stretches.assign(compliance.size(), Vector::Zero()); }
+  void stretch(std::size_t c, const Vector& impulse) {
+    add_stretch(stretches[c], compliance[c], impulse);
+  }
+
+ private:
+  MOREAU_COMPILED_ONCE static void add_stretch(Vector& stretch, const Vector& compliance,
+                                               const Vector& impulse) {
+    stretch += compliance.cwiseProduct(impulse);
+  }
 };
 
 /// The data that BodyDelassus stores of a contact.
@@ -57,6 +78,19 @@ struct OperatorPoint : CoupleArm<S, Couples> {
     typename S::Vector push;  ///< [N s]
     /// About their centres [N m s]; couple: with couples.
     typename S::Angular moment_a, moment_b, couple;
+
+    /// Adds it to that of body b.
+    void give(auto& momentum_b) const {
+      linear<S>(momentum_b) += push;
+      angular<S>(momentum_b) += moment_b;
+      if constexpr (Couples) angular<S>(momentum_b) += couple;
+    }
+    /// Subtracts it from that of body a.
+    void take_from(auto& momentum_a) const {
+      linear<S>(momentum_a) -= push;
+      angular<S>(momentum_a) -= moment_a;
+      if constexpr (Couples) angular<S>(momentum_a) -= couple;
+    }
   };
   /// One thread adds the momenta up contact by contact, several body by body.
   MOREAU_COMPILED_ONCE Momentum momentum_of(const Vector& impulse) const {
@@ -119,6 +153,13 @@ struct OperatorPoint : CoupleArm<S, Couples> {
         set_column(S::dim + k, S::Vector::Zero(), mass.spin_of(this->axes.col(k)));
     return part;
   }
+};
+
+/// The data of a contact that a pass reads if it does not need the point: a pass over these reads less memory.
+template <class T>
+struct OperatorHead {
+  std::array<std::uint32_t, 2> bodies;
+  T trace;  ///< of W_cc + D_cc [1/kg]
 };
 
 /// The numbers of an OperatorPoint without couples, from the first to those of `free`, as they lie in memory: for SIMD

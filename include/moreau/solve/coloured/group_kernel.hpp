@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -259,11 +260,7 @@ class GroupKernel {
   }
   /// Relative velocity of b with respect to a at a point, world axes [m/s].
   static Vector relative(const Points& point, const BodyLanes& a, const BodyLanes& b) {
-    const Vector of_a = Algebra::point_velocity(a, point.lever_a);
-    const Vector of_b = Algebra::point_velocity(b, point.lever_b);
-    Vector between;
-    for (std::size_t k = 0; k < S::dim; ++k) between[k] = of_b[k] - of_a[k];
-    return between;
+    return relative_velocity_of_lanes<Algebra>(a, point.lever_a, b, point.lever_b);
   }
 
   /// A point is active if it has an impulse or had one before its last visit; the points of a group

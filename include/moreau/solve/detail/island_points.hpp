@@ -136,7 +136,7 @@ class IslandPoints {
   }
   /// Adds a contact, unless it cannot act. Contacts of the same two bodies follow one another.
   /// @param masses of all bodies
-  /// @param moves  whether impulses move them
+  /// @param moves  not 0 if impulses move them
   void add(const Source& source, std::span<const InverseMass<S>> masses,
            std::span<const unsigned char> moves) {
     if (!source.free.allFinite()) return;

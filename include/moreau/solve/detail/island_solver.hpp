@@ -11,16 +11,16 @@
 #include <limits>
 #include <span>
 
+#include "moreau/contact/contact_islands.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
-#include "moreau/solve/contact_islands.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau::detail {
 
-/// The small islands of one contact problem: those of at least two contacts, and of at most most_bodies bodies for
+/// The small islands of one contact problem: those of at least two contacts for
 /// which steps of Newton's method are cheap. A single contact is solved exactly by every sweep. Keeps its memory.
 ///
 /// Where the warm start is near a solution, as in structures at rest, few steps are enough, before the sweeps, and where
@@ -34,24 +34,23 @@ class IslandSolver {
   using Problem = ContactProblem<Operator, Law>;
   using Impulse = typename Operator::Vector;
   using Impulses = std::span<Impulse>;
-  static constexpr std::size_t most_bodies = 200;
 
   /// Finds the small islands and solves those that are near a solution.
   /// @param impulses  in: the warm start; out: those of the islands are better or the same [N s]
   /// @param tolerance on the error of the velocities, see SolveReport::velocity_error [-]
-  void start(const Problem& problem, Impulses impulses, double tolerance) {
+  void start(Problem& problem, Impulses impulses, double tolerance) {
     tolerance_ = tolerance;
-    islands_.find(problem.delassus, most_bodies);
+    islands_ = &problem.delassus.islands();
     small_.clear();
     moved_.assign(problem.delassus.body_count(), 0);
     motion_.resize(moved_.size());
-    others_ = islands_.has_large();
+    others_ = islands_->has_large();
     made_even_ = false;
-    for (std::size_t k = 0; k < islands_.size(); ++k) {
-      const auto contacts = islands_.contacts(k);
+    for (std::size_t k = 0; k < islands_->size(); ++k) {
+      const auto contacts = islands_->contacts(k);
       // A matrix with more blocks takes more work.
       const double least_cost =
-          Newton::least_cost_of_step(contacts.size(), islands_.bodies(k), islands_.pairs(k)) /
+          Newton::least_cost_of_step(contacts.size(), islands_->bodies(k), islands_->pairs(k)) /
           double(contacts.size());
       if (contacts.size() < 2 || least_cost > most_visits) {
         others_ = true;
@@ -87,7 +86,7 @@ class IslandSolver {
     for (Small& one : small_) {
       one.start_error = not_attempted;  // that was the error of the warm start
       if (one.error <= near * tolerance_)
-        for (const std::uint32_t c : islands_.contacts(one.island)) impulses[c] = saved_[c];
+        for (const std::uint32_t c : islands_->contacts(one.island)) impulses[c] = saved_[c];
       else
         one.error = not_attempted;
       const bool is_open = one.is_new && one.defect == 0;
@@ -206,7 +205,7 @@ class IslandSolver {
   /// errors add up from step to step.
   /// @param defect of the impulses
   bool accept(Small& one, double defect) const {
-    const double n = std::max(10.0, double(islands_.bodies(one.island)));
+    const double n = std::max(10.0, double(islands_->bodies(one.island)));
     const double error = 10 * n * n * newton_.mass_ratio() * defect;
     if (!(error <= tolerance_) || newton_.has_smooth_point()) return false;
     one.error = error;
@@ -221,7 +220,7 @@ class IslandSolver {
       op.compliance(std::size_t());
     };
     if (springs || has_static_friction(problem, one) || !newton_.slides_on_faces()) return false;
-    const std::size_t bodies = islands_.bodies(one.island);
+    const std::size_t bodies = islands_->bodies(one.island);
     if (one.is_new && bodies > most_new) return false;
     if (!one.is_new && one.defect > largest_defect && bodies > most_colliding) return false;
     find_cost(one);
@@ -243,7 +242,7 @@ class IslandSolver {
   bool has_static_friction(const Problem& problem, const Small& one) const {
     constexpr std::size_t variants = variants_of<Law, typename Operator::Space>();
     if constexpr (variants > 1)
-      for (const std::uint32_t c : islands_.contacts(one.island)) {
+      for (const std::uint32_t c : islands_->contacts(one.island)) {
         const std::size_t first = problem.law_of[c] / variants * variants;
         for (std::size_t k = first; k < std::min(first + variants, problem.laws.size()); ++k)
           if (problem.laws[k].friction() != problem.law(c).friction()) return true;
@@ -261,11 +260,11 @@ class IslandSolver {
   }
   /// Of the island that take() took.
   MOREAU_INLINED void find_cost(Small& one) {
-    one.cost = newton_.cost_of_step() / double(islands_.contacts(one.island).size());
+    one.cost = newton_.cost_of_step() / double(islands_->contacts(one.island).size());
   }
   MOREAU_COMPILED_ONCE void take(const Problem& problem, std::size_t island) {
     newton_.assign(
-        problem.delassus, islands_.contacts(island), islands_.moves(),
+        problem.delassus, islands_->contacts(island),
         [&](std::size_t c) { return problem.delassus.free_velocity(c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
@@ -292,9 +291,9 @@ class IslandSolver {
   }
 
   double tolerance_ = 0;
-  bool others_ = false;     // contacts outside of small islands
-  bool made_even_ = false;  // see made_even()
-  ContactIslands islands_;
+  bool others_ = false;                      // contacts outside of small islands
+  bool made_even_ = false;                   // see made_even()
+  const ContactIslands* islands_ = nullptr;  // of the problem
   Newton newton_;
   List<Small> small_;
   List<Impulse> saved_;

@@ -111,18 +111,10 @@ class ProximalStep {
   MOREAU_INLINED std::size_t sliding_points() {
     const double motion = scale(y_);
     closed_ = 1e-6 * motion;
-    stopped_ = motion;
-    std::size_t count = 0;
-    for (std::size_t first = 0; first < centre_.size();) {
-      const SlidingFace face = find_face(first);
-      if (face.slides()) {
-        count += face.points;
-        stopped_ = std::min(stopped_, face.stopped);
-      }
-      first = face.last;
-    }
-    if (motion > 0) stopped_ /= motion;
-    return count;
+    const SlidingCount count = count_sliding<S>(points_.points(), std::span<const Vector>(centre_),
+                                                std::span<const Vector>(slip_), closed_, motion);
+    stopped_ = motion > 0 ? count.stopped / motion : count.stopped;
+    return count.points;
   }
   /// After sliding_points(): the least velocity that friction on a face can change in the step, relative to the largest
   /// change of a velocity by the impulses, which may be that of a light body [-]. At most 1.
@@ -133,18 +125,8 @@ class ProximalStep {
     first_lifts();
     make_common();
     has_limits_ = true;
-    for (std::size_t first = 0, last; first < centre_.size(); first = last) {
-      const SlidingFace face = find_face(first);
-      last = face.last;
-      for (std::size_t k = first; k < last; ++k) {
-        if (face.points > 1) centre_[k][0] = is_closed(k) ? face.sum / double(face.points) : 0;
-        limit_[k] = points_.points()[k].friction * centre_[k][0];
-        if (!face.slides()) continue;
-        const double slip = slip_of(slip_[k]);
-        for (int i = 1; i < S::dim; ++i)
-          centre_[k][i] = slip > 0 ? -limit_[k] * slip_[k][i] / slip : 0;
-      }
-    }
+    detail::make_even<S>(points_.points(), std::span<const Vector>(slip_), closed_,
+                         std::span<Vector>(centre_), std::span<double>(limit_));
   }
 
   /// Counts the steps of Newton's method from zero.
@@ -244,11 +226,6 @@ class ProximalStep {
 
  private:
   using Vector = typename Points::Vector;
-  bool is_closed(std::size_t k) const { return detail::is_closed(centre_[k], slip_[k], closed_); }
-  MOREAU_INLINED SlidingFace find_face(std::size_t first) const {
-    return detail::find_face<S>(points_.points(), std::span<const Vector>(centre_),
-                                std::span<const Vector>(slip_), closed_, first);
-  }
   using Coordinates = typename Points::Coordinates;
   static constexpr std::size_t polish_bodies = 10;
 
@@ -283,7 +260,7 @@ class ProximalStep {
       }
       slip_[k] = b;
       if (has_limits_) {
-        slide(k, s, b);
+        take(k, s, response_within<S>(limit_[k], s, b));
         continue;
       }
       b[0] += lift_[k];
@@ -291,15 +268,7 @@ class ProximalStep {
         found_[k].setZero();  // stiffness_ is not used
         continue;
       }
-      const ContactResponse<S> answer = response<S>(point.friction, s, b);
-      found_[k] = answer.impulse;
-      stiffness_[k] = answer.stiffness;
-      Vector back;
-      for (int i = 0; i < S::dim; ++i) {
-        slip_[k][i] += s[i] * answer.impulse[i];
-        back[i] = -answer.impulse[i];
-      }
-      points_.push(point, back, f_);
+      take(k, s, response<S>(point.friction, s, b));
     }
     double squares = 0, rest = 0;
     for (std::size_t i = 0; i < f_.size(); ++i) {
@@ -310,26 +279,14 @@ class ProximalStep {
     return {std::sqrt(squares), rest};
   }
 
-  /// respond() for a point whose friction has a given limit (Tresca's law).
-  void slide(std::size_t k, const Vector& s, const Vector& b) {
-    Vector& r = found_[k];
-    double square = 0;
-    for (int i = 0; i < S::dim; ++i) r[i] = -b[i] / s[i];
-    for (int i = 1; i < S::dim; ++i) square += r[i] * r[i];
-    stiffness_[k].setZero();
-    stiffness_[k](0, 0) = r[0] > 0 ? 1 / s[0] : 0;
-    r[0] = std::max(0.0, r[0]);
-    const double length = std::sqrt(square), share = length > limit_[k] ? limit_[k] / length : 1;
-    for (int i = 1; i < S::dim; ++i) {
-      stiffness_[k](i, i) = share / s[i];
-      if (share < 1)
-        for (int j = 1; j < S::dim; ++j) stiffness_[k](i, j) -= share / s[i] * r[i] * r[j] / square;
-    }
+  /// Takes the response of a point: its impulse moves f_, and the compliances s add to its slip.
+  void take(std::size_t k, const Vector& s, const ContactResponse<S>& answer) {
+    found_[k] = answer.impulse;
+    stiffness_[k] = answer.stiffness;
     Vector back;
     for (int i = 0; i < S::dim; ++i) {
-      if (i > 0) r[i] *= share;
-      slip_[k][i] += s[i] * r[i];
-      back[i] = -r[i];
+      slip_[k][i] += s[i] * answer.impulse[i];
+      back[i] = -answer.impulse[i];
     }
     points_.push(points_.points()[k], back, f_);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The points of an island that lie on one face, and whether the face slides.
+// The points of an island that lie on one face, and whether the face slides. While it slides, the friction of its points
+// has given limits in place of lifts (solve/island_newton.hpp).
 #pragma once
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <span>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/solve/detail/island_points.hpp"
 
 namespace moreau::detail {
 
@@ -62,6 +64,79 @@ MOREAU_INLINED inline SlidingFace find_face(std::span<const Point> points,
   }
   face.stopped = mobility * face.sum;
   return face;
+}
+
+/// Points on faces that slide.
+struct SlidingCount {
+  std::size_t points = 0;
+  double stopped;  ///< the least velocity that friction on such a face can change in a step [m/s]
+};
+/// Counts the points on faces of two points and more that slide.
+/// @param stopped without such a face [m/s]
+template <class S, class Point, class Vector>
+MOREAU_INLINED inline SlidingCount count_sliding(std::span<const Point> points,
+                                                 std::span<const Vector> impulse,
+                                                 std::span<const Vector> velocity, double fastest,
+                                                 double stopped) {
+  SlidingCount count{0, stopped};
+  for (std::size_t first = 0; first < points.size();) {
+    const SlidingFace face = find_face<S>(points, impulse, velocity, fastest, first);
+    if (face.slides()) {
+      count.points += face.points;
+      count.stopped = std::min(count.stopped, face.stopped);
+    }
+    first = face.last;
+  }
+  return count;
+}
+
+/// Makes the pressure of each face uniform. Its sum remains. The friction of a face that slides is on its limit.
+/// @param impulse in, out: of each contact [N s]
+/// @param limit   out: mu r_n of each contact [N s]
+template <class S, class Point, class Vector>
+MOREAU_INLINED inline void make_even(std::span<const Point> points,
+                                     std::span<const Vector> velocity, double fastest,
+                                     std::span<Vector> impulse, std::span<double> limit) {
+  for (std::size_t first = 0, last; first < points.size(); first = last) {
+    const SlidingFace face =
+        find_face<S>(points, std::span<const Vector>(impulse), velocity, fastest, first);
+    last = face.last;
+    for (std::size_t k = first; k < last; ++k) {
+      if (face.points > 1)
+        impulse[k][0] =
+            is_closed(impulse[k], velocity[k], fastest) ? face.sum / double(face.points) : 0;
+      limit[k] = points[k].friction * impulse[k][0];
+      if (!face.slides()) continue;
+      const double slip = slip_of<S>(velocity[k]);
+      for (int i = 1; i < S::dim; ++i)
+        impulse[k][i] = slip > 0 ? -limit[k] * velocity[k][i] / slip : 0;
+    }
+  }
+}
+
+/// The response of a contact whose friction has a given limit (Tresca's law).
+/// @param s compliances in series [1/kg]
+/// @param b velocity without an impulse [m/s]
+template <class S>
+MOREAU_INLINED inline ContactResponse<S> response_within(
+    double limit, const Eigen::Matrix<double, S::dim, 1>& s,
+    const Eigen::Matrix<double, S::dim, 1>& b) {
+  ContactResponse<S> answer;
+  auto& [r, stiffness] = answer;
+  double square = 0;
+  for (int i = 0; i < S::dim; ++i) r[i] = -b[i] / s[i];
+  for (int i = 1; i < S::dim; ++i) square += r[i] * r[i];
+  stiffness.setZero();
+  stiffness(0, 0) = r[0] > 0 ? 1 / s[0] : 0;
+  r[0] = std::max(0.0, r[0]);
+  const double length = std::sqrt(square), share = length > limit ? limit / length : 1;
+  for (int i = 1; i < S::dim; ++i) {
+    stiffness(i, i) = share / s[i];
+    if (share < 1)
+      for (int j = 1; j < S::dim; ++j) stiffness(i, j) -= share / s[i] * r[i] * r[j] / square;
+  }
+  for (int i = 1; i < S::dim; ++i) r[i] *= share;
+  return answer;
 }
 
 }  // namespace moreau::detail

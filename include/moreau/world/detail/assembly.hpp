@@ -14,8 +14,8 @@
 #include <tuple>
 #include <vector>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/error.hpp"
@@ -165,8 +165,8 @@ class Assembly {
       if (overlaps_allowed_ || !(contact.gap < 0)) continue;
       if (placed_[contact.a] == 0 && placed_[contact.b] == 0) continue;
       const Scalar most = std::min(width_of(contact.a), width_of(contact.b)) / 2;
-      const Scalar speed = BodyDelassus<S>::relative_velocity(contact, bodies_.velocity[contact.a],
-                                                              bodies_.velocity[contact.b])[0];
+      const Scalar speed =
+          relative_velocity(contact, bodies_.velocity[contact.a], bodies_.velocity[contact.b])[0];
       // The prediction has moved the bodies by less than this.
       if (-contact.gap <= most + std::max(Scalar(0), -speed * step_)) continue;
       bodies_.pose = kept_poses_;

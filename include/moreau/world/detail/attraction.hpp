@@ -19,8 +19,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
@@ -94,16 +94,13 @@ class Attraction {
       const Twist &a = changes_[contact.a], &b = changes_[contact.b];
       if (a.isZero(0) && b.isZero(0)) continue;
       const typename S::Angular spin = angular<S>(b) - angular<S>(a);
-      typename std::decay_t<decltype(op)>::Vector row;
-      linear<S>(row) = op.turned(c, BodyDelassus<S>::relative_velocity(contact, a, b));
-      angular<S>(row) = op.radius(c) * (S::angular_frame(op.frame(c)).transpose() * spin);
-      op.offset(c, row);
+      op.offset(c, op.row(c, relative_velocity(contact, a, b), spin));
     }
     changes_.clear();
   }
   /// From impulses on b to pushes against the attraction.
-  void add_to(auto impulses) const {
-    for (std::size_t c = 0; c < pulls_.size(); ++c) impulses[c][0] += pulls_[c];
+  void add_to(auto rows) const {
+    for (std::size_t c = 0; c < pulls_.size(); ++c) rows[c][0] += pulls_[c];
   }
   /// From pushes to impulses on b.
   void take_from(auto impulses) const {

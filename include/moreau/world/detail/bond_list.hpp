@@ -51,7 +51,8 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/bond.hpp"
-#include "moreau/world/detail/chord_velocities.hpp"
+#include "moreau/world/detail/bond_arcs.hpp"
+#include "moreau/world/detail/bond_yield.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -89,7 +90,7 @@ class BondList {
       const auto points = std::span(touching.points).subspan(first, last - first);
       const BodyId a = bodies.id[points[0].a], b = bodies.id[points[0].b];
       if (std::any_of(points.begin(), points.end(), keeps) && !has(a, b, before))
-        bonds_.push_back(made(bodies, cell, points));
+        bonds_.push_back(bond_of<S>(points, bodies, cell));
     }
     std::sort(bonds_.begin(), bonds_.end(), [](const Bond<S>& l, const Bond<S>& r) {
       return std::pair(l.a, l.b) < std::pair(r.a, r.b);
@@ -159,7 +160,8 @@ class BondList {
       const Vector shift = cell.shift(bond.cells);
       places_[i] = place_of(bond, bodies, shift);
       if (bond.is_new)
-        bond.slip = transposed_product(places_[i].frame, stretch_on_arcs(i, bodies, before));
+        bond.slip =
+            transposed_product(places_[i].frame, stretch_on_arcs(bond, places_[i], bodies, before));
       add_contact(pair.first, pair.second, places_[i]);
     }
     for (; c < contacts.size(); ++c) copy(contacts, c);
@@ -212,7 +214,8 @@ class BondList {
       angular<S>(row) = op.radius(c) * (spin_frame.transpose() * turn);
       row *= (is_compliant ? 1 : rate) / context.step;
       drifts_[i] = is_compliant ? Row(Row::Zero()) : row;
-      linear<S>(row) += transposed_product(op.frame(c), chord_of(c, context, before));
+      linear<S>(row) += transposed_product(
+          op.frame(c), chord_of_bond<S>(context.contacts.points[c], before, context.step));
       if constexpr (is_compliant) row[0] -= op.compliance(c)[0] * pulls[c];
       op.offset(c, row);
     });
@@ -237,29 +240,20 @@ class BondList {
   }
 
   /// Finds the strength in the step of bonds that yield, after the contact problem was solved with the present
-  /// attraction. Let x be the share that a bond loses in the step by its velocity. Its strength in the step is the mean
-  /// over the opening, s - x / 2, or s^2 / (2 x) if it breaks: it dissipates the area under the line of softening,
-  /// whatever the step. A secant step per bond makes the iteration for one bond end after two solutions.
-  /// @param pulls impulses of the attraction in the solution [N s]
+  /// attraction.
+  /// @param pushes p of the solution, see pushes.hpp [N s]
+  /// @param pulls  impulses of the attraction in the solution [N s]
   /// @returns the sum of the squares of the impulses that these strengths differ from the attraction by
   double find_strengths(const Materials<Law>& materials, const Operator& op,
-                        const ContactsOf<Law, S>& contacts, std::span<const Row> impulses,
+                        const ContactsOf<Law, S>& contacts, std::span<const Row> pushes,
                         std::span<const Scalar> pulls, Scalar step) {
     double sum = 0;
     for_each([&](std::size_t i, std::size_t c) {
-      const Law& law = materials.laws()[contacts.points[c].law];
-      const Scalar full = step * law.strength().tension, now = pulls[c] / full;
-      Softening& last = softening_[i];
-      Scalar found = strength_in_step(i, law, op, c, impulses[c], step);
-      // Equal to rounding: T h s, divided by T h, is not s to the last bit.
-      const Scalar rounding = 4 * std::numeric_limits<Scalar>::epsilon() * bonds_[i].strength_left;
-      if (std::abs(found - now) <= rounding) found = now;
-      const Scalar slope =
-          last.found < 0 || now == last.now ? Scalar(0) : (found - last.found) / (now - last.now);
-      const Scalar next = now + (found - now) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
-      const Scalar kept = std::clamp(next, Scalar(0), bonds_[i].strength_left);
-      last = {now, found, found == now ? Scalar(0) : full * (kept - now)};
-      sum += double(full * (found - now)) * double(full * (found - now));
+      const LoadedBond<S, Law> bond = loaded(i, c, materials, op, contacts, pushes, step);
+      const Scalar strength = bonds_[i].strength_left;
+      const double lacks = double(softening_[i].go_on(pulls[c], step * bond.law.strength().tension,
+                                                      bond.strength_in_step(strength), strength));
+      sum += lacks * lacks;
     });
     return sum;
   }
@@ -274,17 +268,17 @@ class BondList {
   static constexpr int max_solutions = 30;
 
   /// StepReport::bond_load.
-  /// @param impulses p of every contact [N s]
+  /// @param pushes   p of every contact, see pushes.hpp [N s]
   /// @param pulls    impulses of the attraction [N s]
   /// @param shared   bodies that other processes share; null: none
-  double load(std::span<const Row> impulses, std::span<const Scalar> pulls,
+  double load(std::span<const Row> pushes, std::span<const Scalar> pulls,
               SharedBodies* shared) const {
     double sums[] = {0, 0};  // of the squares of what acts on the bodies, and of p
     for_each([&](std::size_t, std::size_t c) {
-      Row bears = impulses[c];
+      Row bears = pushes[c];
       bears[0] -= pulls[c];
       sums[0] += bears.template cast<double>().squaredNorm();
-      sums[1] += impulses[c].template cast<double>().squaredNorm();
+      sums[1] += pushes[c].template cast<double>().squaredNorm();
     });
     if (shared) shared->sum(sums);
     return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
@@ -296,26 +290,15 @@ class BondList {
   }
   /// Finds out how the bonds yield, which end_step() lets them do, and which of them break.
   /// @param op       with the velocities of the impulses
-  /// @param impulses p of every contact [N s]
+  /// @param pushes   p of every contact, see pushes.hpp [N s]
   /// @param step     h [s]
   void yield(const Materials<Law>& materials, const Operator& op,
-             const ContactsOf<Law, S>& contacts, std::span<const Row> impulses, Scalar step) {
+             const ContactsOf<Law, S>& contacts, std::span<const Row> pushes, Scalar step) {
     broken_.assign(bonds_.size(), 0);
     yields_.assign(bonds_.size(), {});
     for_each([&](std::size_t i, std::size_t c) {
-      const Contact<S>& contact = contacts.points[c];
-      const Law& law = materials.laws()[contact.law];
-      const Row p = pushes(law, impulses[c], step);
-      if (!law.yields(p)) return;
-      const Row w = yielding(law, op, i, c, p);
-      Yield& yield = yields_[i];
-      yield.loss = step * law.softening(w);
-      broken_[i] = !(bonds_[i].strength_left > yield.loss);
-      const typename S::Matrix frame = places_[i].frame.transpose() * op.frame(c);
-      yield.slip = step * (frame * linear<S>(w));
-      yield.bend = step / op.radius(c) *
-                   (S::angular_frame(places_[i].frame).transpose() *
-                    (S::angular_frame(op.frame(c)) * angular<S>(w)));
+      yields_[i] = yield_of(loaded(i, c, materials, op, contacts, pushes, step), places_[i].frame);
+      broken_[i] = yields_[i].loss != 0 && !(bonds_[i].strength_left > yields_[i].loss);
     });
   }
   /// Lets the bonds yield. Moves the energy that they took in the step from friction and rolling to StepReport::fracture, and removes
@@ -366,61 +349,15 @@ class BondList {
   static constexpr Scalar rate = Scalar(0.2);
   static constexpr Scalar rounding_of_turn = std::numeric_limits<Scalar>::epsilon();  // [rad]
 
-  /// A strength in the step that the problem was solved with, that of find_strengths() for its solution; < 0: none.
-  struct Softening {
-    Scalar now = -1, found = -1;
-    Scalar change = 0;  ///< of the impulse of the attraction, for the next solution [N s]
-  };
-  /// How a bond yields in a step: a step that is repeated with more contacts must not have changed it.
-  struct Yield {
-    Scalar loss = 0;                                // of strength_left [-]
-    Vector slip = Vector::Zero();                   // [m]
-    typename S::Angular bend = S::Angular::Zero();  // [rad]
-  };
-  /// The velocity at which a bond yields: that of its bodies, less that of its springs, without the correction of a
-  /// rigid bond, which counts the motion up to detection as an error. Where the bond does not yield, the correction goes on.
-  Row yielding(const Law& law, const Operator& op, std::size_t i, std::size_t c,
-               const Row& p) const {
-    return law.yielding(p, Row(op.velocity(c) - drifts_[i]));
-  }
-  /// The impulse of a bond, without what is rounding beside its strength.
-  static Row pushes(const Law& law, Row p, Scalar step) {
-    const Scalar small = std::sqrt(std::numeric_limits<Scalar>::epsilon());
-    if (p[0] <= small * step * law.strength().tension) p[0] = 0;
-    return p;
-  }
-  Scalar strength_in_step(std::size_t i, const Law& law, const Operator& op, std::size_t c,
-                          const Row& impulse, Scalar step) const {
-    const Scalar s = bonds_[i].strength_left;
-    const Row p = pushes(law, impulse, step);
-    if (!law.yields(p)) return s;
-    const Scalar x = step * law.softening(yielding(law, op, i, c, p));
-    return !std::isfinite(x) ? s : x < s ? s - x / 2 : s * s / (2 * x);
+  LoadedBond<S, Law> loaded(std::size_t i, std::size_t c, const Materials<Law>& materials,
+                            const Operator& op, const ContactsOf<Law, S>& contacts,
+                            std::span<const Row> pushes, Scalar step) const {
+    return {materials.laws()[contacts.points[c].law], op, c, pushes[c], drifts_[i], step};
   }
   /// The part of a vector that is longer than its rounding.
   static auto beyond(const auto& x, Scalar rounding) {
     const Scalar length = x.norm();
     return std::decay_t<decltype(x)>(x * (length > rounding ? 1 - rounding / length : Scalar(0)));
-  }
-  /// The chord of the arcs on which the points of a bond move over the step, b minus a [m/s].
-  static Vector chord_of(std::size_t c, const auto& context,
-                         std::span<const typename S::Twist> before) {
-    const Contact<S>& contact = context.contacts.points[c];
-    return chord_excess<S>(angular<S>(before[contact.b]), contact.lever_b, context.step) -
-           chord_excess<S>(angular<S>(before[contact.a]), contact.lever_a, context.step);
-  }
-  /// The stretch of a bond whose bodies have moved along tangents and turned for a while, of which its points at the
-  /// beginning had the same velocity [m].
-  Vector stretch_on_arcs(std::size_t i, const Bodies<S>& bodies, Scalar time) const {
-    const auto excess = [&](BodyId body, const Vector& lever) {
-      const typename S::Angular spin = angular<S>(bodies.velocity[body.index()]);
-      const Vector back = time * (chord_excess<S>(spin, lever, -time) + S::spin(spin, lever));
-      return Vector(time * chord_excess<S>(spin, Vector(lever - back), time));
-    };
-    if (!(time > 0)) return Vector::Zero();
-    const BondPlace<S>& at = places_[i];
-    return excess(bonds_[i].b, at.middle_b + at.stretch / 2) -
-           excess(bonds_[i].a, at.middle_a - at.stretch / 2);
   }
   /// Calls use(index of the bond, index of its contact).
   void for_each(const auto& use) const {
@@ -436,39 +373,6 @@ class BondList {
                            return std::pair(bond.a, bond.b) < pair;
                          });
     return at != end && at->a == a && at->b == b;
-  }
-  static Bond<S> made(const Bodies<S>& bodies, const PeriodicCell<S>& cell,
-                      std::span<const Contact<S>> points) {
-    Bond<S> bond;
-    Vector lever_a = Vector::Zero(), lever_b = Vector::Zero(), normal = Vector::Zero();
-    for (const Contact<S>& point : points) {
-      lever_a += point.lever_a;
-      lever_b += point.lever_b;
-      normal += point.frame.col(0);
-    }
-    lever_a /= Scalar(points.size());
-    lever_b /= Scalar(points.size());
-    // Normals of several parts that cancel: any will do.
-    normal = normal.norm() > Scalar(0.1) ? normal.normalized() : Vector(points[0].frame.col(0));
-    const std::uint32_t a = points[0].a, b = points[0].b;
-    const typename S::Matrix axes_a = bodies.axes(a), axes_b = bodies.axes(b),
-                             frame = S::contact_frame(normal);
-    bond.a = bodies.id[a];
-    bond.b = bodies.id[b];
-    bond.anchor_a = axes_a.transpose() * lever_a;
-    bond.anchor_b = axes_b.transpose() * lever_b;
-    bond.frame_a = axes_a.transpose() * frame;
-    bond.frame_b = axes_b.transpose() * frame;
-    count_cells(bond, bodies, cell);
-    return bond;
-  }
-  /// Counts the cells to the image of b at a: a user may have moved bodies by whole cells, or set another cell.
-  MOREAU_COLD static void count_cells(Bond<S>& bond, const Bodies<S>& bodies,
-                                      const PeriodicCell<S>& cell) {
-    const std::size_t a = bond.a.index(), b = bond.b.index();
-    const Vector at_a = bodies.pose[a].position + bodies.axes(a) * bond.anchor_a,
-                 at_b = bodies.pose[b].position + bodies.axes(b) * bond.anchor_b;
-    bond.cells = cell.cells(Vector(at_a - at_b));
   }
   void copy(const ContactsOf<Law, S>& from, std::size_t c) {
     merged_.points.push_back(from.points[c]);
@@ -489,12 +393,12 @@ class BondList {
   std::vector<Breakage> breakages_;
   Scalar missed_gap_ = -1;
   // Of the step.
-  List<std::size_t> contact_of_;  // of each bond, or none
-  List<BondPlace<S>> places_;     // of each bond
-  List<Row> drifts_;              // of each bond: the correction in its offset, see offset()
-  List<unsigned char> broken_;    // of each bond
-  List<Yield> yields_;            // of each bond
-  List<Softening> softening_;     // of each bond
+  List<std::size_t> contact_of_;       // of each bond, or none
+  List<BondPlace<S>> places_;          // of each bond
+  List<Row> drifts_;                   // of each bond: the correction in its offset, see offset()
+  List<unsigned char> broken_;         // of each bond
+  List<BondYield<S>> yields_;          // of each bond
+  List<Softening<Scalar>> softening_;  // of each bond
   List<Row> hidden_;
   ContactsOf<Law, S> merged_;
   std::size_t undetected_ = 0;

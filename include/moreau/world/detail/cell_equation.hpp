@@ -49,9 +49,9 @@ class CellEquation {
     op.add_cell(servo_.response());
   }
   /// Takes the rate of the cell from the operator; its free velocities have it from then on.
-  void leave(const Context& context, auto& op) {
-    using Row = typename std::decay_t<decltype(op)>::Vector;
-    op.move_cell(std::span<const Row>(context.contacts.impulses));
+  /// @param pushes p of the solution, see pushes.hpp
+  void leave(const Context& context, const auto& pushes, auto& op) {
+    op.move_cell(pushes);
     servo_.set_rate(servo_.rate() + op.cell_change());
     op.remove_cell();
     jumps_.change(servo_.rate(), context.contacts, op);

@@ -58,6 +58,7 @@
 #include <span>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
@@ -249,7 +250,7 @@ class ChordVelocities {
                  lever_b = contact.lever_b - (has_face && !owner_is_a ? core_a : core_b);
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
     const Vector slip =
-        velocity_at<S>(bodies.velocity[b], lever_b) - velocity_at<S>(bodies.velocity[a], lever_a);
+        relative_velocity_at<S>(bodies.velocity[a], lever_a, bodies.velocity[b], lever_b);
     const Vector sliding = slip - normal.dot(slip) * normal;
     const Scalar apart = has_face ? 0 : (core_a - core_b).norm();
     Scalar bend = 0;
@@ -288,7 +289,7 @@ class ChordVelocities {
     const Angular tilt = of_owner - side.along * side.along.dot(of_owner);
     // The core of the other body relative to the frame of the side.
     const Vector slip =
-        velocity_at<S>(twist_b, lever_b) - velocity_at<S>(twist_a, lever_a) - S::spin(tilt, apart);
+        relative_velocity_at<S>(twist_a, lever_a, twist_b, lever_b) - S::spin(tilt, apart);
     const Vector own = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
     const Vector aside = S::spin(side.along, normal);
     const Scalar distance = apart.norm();
@@ -334,8 +335,9 @@ class ChordVelocities {
     const Angular tilt = along(of_b, -axis.dot(of_b), axis);
     const Vector own = chord_excess<S>(of_a, lever_a, step);
     const Vector tilted = chord_excess<S>(tilt, lever_b, step);
-    const Vector slip = linear<S>(bodies.velocity[b]) + S::spin(tilt, lever_b) -
-                        velocity_at<S>(bodies.velocity[a], lever_a);
+    typename S::Twist tilting = bodies.velocity[b];
+    angular<S>(tilting) = tilt;
+    const Vector slip = relative_velocity_at<S>(bodies.velocity[a], lever_a, tilting, lever_b);
     const Scalar radius = -S::spin(axis, S::spin(axis, lever_b)).dot(normal) + contact.gap;
     const Vector excess = tilted - own;
     const Scalar along = step * S::spin(axis, normal).dot(slip + excess);

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/law/concepts.hpp"
@@ -51,12 +51,12 @@ class ContactLaws {
   /// Chooses the law of each contact, computes the relative velocities before the step and adds the
   /// offsets of the laws to b.
   /// @param velocities of the bodies before the step, in the configuration of the contacts [m/s, rad/s]
-  /// @param impulses out: 0 where the law says that the contact cannot act
+  /// @param pushes   p, see pushes.hpp; out: 0 where the law says that the contact cannot act
   /// @param gap_of   function: contact -> its gap, with the overlap correction [m]
   /// @param jumps    of the cell, if it deforms
   /// @returns the largest approach velocity before the step, >= 0 [m/s]
   Scalar offset_velocities(const Context& context, std::span<const typename S::Twist> velocities,
-                           Problem& problem, std::span<Row> impulses, const auto& gap_of,
+                           Problem& problem, std::span<Row> pushes, const auto& gap_of,
                            const CellJumps<S>& jumps, const Team& team) {
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
@@ -71,8 +71,8 @@ class ContactLaws {
                  const Contact<S>& contact = points[c];
                  const Law& law = laws[contact.law];
                  problem.law_of[c] = law_of(context.contacts, c);
-                 Vector before = BodyDelassus<S>::relative_velocity(contact, velocities[contact.a],
-                                                                    velocities[contact.b]);
+                 Vector before =
+                     relative_velocity(contact, velocities[contact.a], velocities[contact.b]);
                  if (cell) before += (*cell)[c];
                  velocity_before[c] = before;
                  fastest.add({-before[0]});
@@ -86,24 +86,26 @@ class ContactLaws {
                             closing.offset);
                  if constexpr (TangentialRestitutionLaw<Law, S>)
                    bounce_aside(problem, c, law, closing.gap, approach);
-                 if (!std::isfinite(offset)) impulses[c].setZero();
+                 if (!std::isfinite(offset)) pushes[c].setZero();
                  problem.delassus.offset_normal(c, offset);
                })
         .value;
   }
-  /// Chooses the variants of the next step, from impulses that still are rows of the operator and those of the laws.
+  /// Chooses the variants of the next step.
+  /// @param pushes   p of the solution, see pushes.hpp
   /// @param accuracy tolerance of the solver; 0: it does not say
   template <
       class Contacts>  // clang would instantiate a function that is no template with the class
   void choose_variants([[maybe_unused]] const Problem& problem, const Materials<Law>& materials,
-                       Contacts& contacts, [[maybe_unused]] double accuracy) const {
+                       Contacts& contacts, [[maybe_unused]] std::span<const Row> pushes,
+                       [[maybe_unused]] double accuracy) const {
     if constexpr (stateful) {
       const std::span<const Law> laws(materials.laws());
       for (std::size_t c = 0; c < contacts.size(); ++c)
         contacts.variants[c] =
             static_cast<std::uint32_t>(laws[contacts.points[c].law].variant_after(
-                contacts.variants[c], Vector(contacts.impulse(c))));
-      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, accuracy);
+                contacts.variants[c], Vector(pushes[c].template head<S::dim>())));
+      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, pushes, accuracy);
     }
   }
 
@@ -126,7 +128,7 @@ class ContactLaws {
   /// Gives the contacts that do not slide the variant at rest, if a law has static friction.
   template <class Contacts>
   MOREAU_COLD static void hold(const Problem& problem, std::span<const Law> laws,
-                               Contacts& contacts, double accuracy) {
+                               Contacts& contacts, std::span<const Row> pushes, double accuracy) {
     if (std::none_of(laws.begin(), laws.end(),
                      [](const Law& law) { return law.has_static_friction(); }))
       return;
@@ -139,7 +141,7 @@ class ContactLaws {
       std::size_t c = first;
       while (c < last && contacts.variants[c] == at_rest(c)) ++c;
       if (c == last) continue;
-      const SlidingPoints<Operator, Law> points(problem, contacts.impulses, accuracy, first, last);
+      const SlidingPoints<Operator, Law> points(problem, pushes, accuracy, first, last);
       for (; c < last; ++c)
         if (!points.slides(contacts, c)) contacts.variants[c] = at_rest(c);
     }

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/parallel/team.hpp"
 
@@ -32,7 +32,7 @@ void add_losses(std::span<const typename S::Twist> velocities, const Contacts<S,
   const std::uint32_t a = contact.a, b = contact.b;
   const typename S::Vector& impulse = contacts.impulse(c);
   if (contacts.impulses[c].isZero(0)) return;
-  typename S::Vector mean = BodyDelassus<S>::relative_velocity(contact, after[a], after[b]);
+  typename S::Vector mean = relative_velocity(contact, after[a], after[b]);
   for (int k = 0; k < S::dim; ++k) mean[k] = (before[k] + mean[k]) / 2;
   typename S::Scalar along = 0;
   for (int k = 1; k < S::dim; ++k) along += impulse[k] * mean[k];

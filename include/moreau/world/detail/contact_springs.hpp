@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
@@ -297,15 +298,9 @@ class ContactSprings {
     const auto change = [&](std::uint32_t body) ->
         typename S::Twist { return now_ * context.bodies.velocity[body] - then_ * last_[body]; };
     const typename S::Twist a = change(point.a), b = change(point.b);
-    typename S::Vector velocity = Operator::relative_velocity(point, a, b);
+    typename S::Vector velocity = relative_velocity(point, a, b);
     if (jumps) velocity += (now_ - then_) * (*jumps)[c];
-    Row row;
-    row.template head<S::dim>() = op.turned(c, velocity);
-    if constexpr (RollingLaw<Law, S>)
-      row.template tail<S::angular_dim>() = op.radius(c) *
-                                            S::angular_frame(op.frame(c)).transpose() *
-                                            (angular<S>(b) - angular<S>(a));
-    return row;
+    return op.row(c, velocity, angular<S>(b) - angular<S>(a));
   }
   friend struct moreau::SerializationAccess;
   friend struct StateAccess;

@@ -10,9 +10,9 @@
 #include <span>
 #include <tuple>
 
-#include "moreau/contact/body_delassus.hpp"
 #include "moreau/contact/effective_mass.hpp"
 #include "moreau/contact/effective_radius.hpp"
+#include "moreau/contact/relative_velocity.hpp"
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/list.hpp"
@@ -95,10 +95,8 @@ class ForceDynamics {
   static ContactMotion<S> motion_of(const Bodies<S>& bodies, const Contact<S>& contact, Scalar mass,
                                     Scalar elapsed) {
     const std::uint32_t a = contact.a, b = contact.b;
-    return {contact.gap,
-            BodyDelassus<S>::relative_velocity(contact, bodies.velocity[a], bodies.velocity[b]),
-            mass, effective_radius(contact, bodies.grain_mass[a] > 0, bodies.grain_mass[b] > 0),
-            elapsed};
+    return {contact.gap, relative_velocity(contact, bodies.velocity[a], bodies.velocity[b]), mass,
+            effective_radius(contact, bodies.grain_mass[a] > 0, bodies.grain_mass[b] > 0), elapsed};
   }
   void apply(const Contact<S>& contact, const Vector& force) {
     linear<S>(loads_[contact.b]) += force;

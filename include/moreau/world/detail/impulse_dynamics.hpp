@@ -5,13 +5,16 @@
 //   2. find_free_velocities(): of every body at the end of the step without contacts, attraction included (in several
 //      processes it is added in 3, after the bodies are split)
 //   3. assemble(): the Delassus operator; bodies that other processes share are split
-//   4. warm_start(): from the impulses of the step before; the memory of springs and bonds is added to b
+//   4. warm_start(): the unknowns p of the contact problem (pushes.hpp) from the impulses r of the step before: turned with
+//      the contacts, into rows of the operator (Pushes::carry()), with springs those of the same forces over this step
+//      (ContactSprings::scale()), with the push against the attraction (Attraction::add_to()). The memory of springs and
+//      bonds is added to b
 //   5. correct_overlaps(): bodies move, velocities do not
 //   6. ContactLaws::list_variants(): the table of all laws with their variants (each contact gets its own in 7)
 //   7. ContactLaws::offset_velocities(): the law of each contact, u before the step, and what chord and law add to b,
 //      from the corrected gaps
-//   8. solve(): the contact problem, by default with solve/coloured_gauss_seidel.hpp; limits the restitution. Its end,
-//      BodyDelassus::from_rows(), stores the impulses of the contacts
+//   8. solve(): p, by default with solve/coloured_gauss_seidel.hpp; limits the restitution. Pushes::store(): r of the
+//      contacts, p in their frames without the push against the attraction
 //   9. find_velocities(): after the impulses
 //  10. measure_losses(): the dissipation
 //  11. advance_configuration(): to the end of the step
@@ -32,7 +35,7 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/core/small_matrix.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -51,9 +54,11 @@
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
 #include "moreau/world/detail/integrate.hpp"
+#include "moreau/world/detail/pushes.hpp"
 #include "moreau/world/detail/soften_bonds.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/detail/step_margins.hpp"
+#include "moreau/world/detail/step_velocities.hpp"
 #include "moreau/world/overlap_correction.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -105,7 +110,7 @@ class ImpulseDynamics {
   }
   void set_integrator(const Integrator& integrator) { integrator_ = moving_ = integrator; }
   /// The part of the step that comes after detection [-]; 1/2 of an integrator without theta().
-  Scalar theta() const { return theta_of(moving_); }
+  Scalar theta() const { return theta_of<Scalar>(moving_); }
   void set_correction(const OverlapCorrectionOptions& options) {
     correction_ = OverlapCorrection<S>(checked(options));
   }
@@ -133,14 +138,10 @@ class ImpulseDynamics {
 
   /// Stage 1.
   void predict_configuration(Bodies<S>& bodies, Scalar step) {
-    momentum_.resize(bodies.size());
-    before_.resize(bodies.size());
-    free_.resize(bodies.size());
-    after_.resize(bodies.size());
-    roots_.resize(bodies.size());
+    velocities_.resize(bodies.size());
     shifts_.resize(bodies.size());
     if constexpr (compliant) moving_ = springs_.for_step(integrator_, step);
-    detail::predict_configuration<S>(moving_, bodies, momentum_, step, team_);
+    detail::predict_configuration<S>(moving_, bodies, velocities_.momentum, step, team_);
   }
   /// Whether other processes share bodies.
   bool shares_bodies() const { return shared_ != nullptr; }
@@ -154,7 +155,7 @@ class ImpulseDynamics {
   /// Velocities after solve_contacts(), and the shifts by which it has corrected overlaps, one per body.
   /// @param has_chords whether the relative velocities of some contacts get chords
   StepMotion<S> motion(const Context& context, bool has_chords) const {
-    StepMotion<S> motion{after_, {}, context.step};
+    StepMotion<S> motion{velocities_.after, {}, context.step};
     if (shifts_.any()) motion.shifts = correction_.shifts();
     if (has_chords) motion.before = context.bodies.velocity;
     return motion;
@@ -165,7 +166,7 @@ class ImpulseDynamics {
   /// @param report out: cell_work
   /// @returns V sigma, see world/cell_control.hpp [J]
   typename S::Matrix measure_cell(const Context& context, StepReport& report) const {
-    return cell_.measure(context, std::span<const Twist>(after_), report);
+    return cell_.measure(context, std::span<const Twist>(velocities_.after), report);
   }
   /// L of the periodic cell after the step, once the contact problem is solved [1/s].
   const typename S::Matrix& cell_rate() const { return cell_.rate(); }
@@ -192,12 +193,6 @@ class ImpulseDynamics {
     moving_ = integrator_;
     forget_problem();
   }
-  static Scalar theta_of([[maybe_unused]] const Integrator& integrator) {
-    if constexpr (requires { integrator.theta(); })
-      return Scalar(integrator.theta());
-    else
-      return Scalar(0.5);
-  }
 
   static constexpr bool compliant = CompliantLaw<Law, S>;
   static constexpr bool bridging = BridgingLaw<Law, S>;
@@ -219,18 +214,19 @@ class ImpulseDynamics {
   void attract(const Context& context) {
     if constexpr (bonding)
       if (!attracts()) return attraction_.clear();
-    attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(roots_),
-                      std::span<Twist>(free_));
+    attraction_.apply(context, bonds_, std::span<const MobilityRoot<S>>(velocities_.roots),
+                      std::span<Twist>(velocities_.free));
   }
   void assemble(const Context& context) {
     if (shared_) {
-      split_shared_bodies<S>(*shared_, context.contacts.points, std::span(roots_), touched_);
+      split_shared_bodies<S>(*shared_, context.contacts.points, std::span(velocities_.roots),
+                             touched_);
       if constexpr (AttractiveLaw<Law, S>) {
         attract(context);
-        average_twists<S>(*shared_, std::span<Twist>(free_));
+        average_twists<S>(*shared_, std::span<Twist>(velocities_.free));
       }
     }
-    problem_.delassus.assemble(context.contacts.points, roots_, free_,
+    problem_.delassus.assemble(context.contacts.points, velocities_.roots, velocities_.free,
                                springs_.compliances(context), team_);
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
@@ -252,45 +248,36 @@ class ImpulseDynamics {
   }
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
-    const std::span<Row> impulses(context.contacts.impulses);
     std::size_t found = 0;
     if constexpr (compliant) {
       // The springs bear the pushes against the attraction of contacts, but not the attraction of bonds.
       found = start(context, attraction_.pushes_before(context, springs_.last_step()));
-      springs_.scale(context, impulses, theta());
-      bonds_.hide(impulses, [&] {
-        springs_.relax(context, impulses, context.deforms() ? &cell_.jumps() : nullptr,
+      springs_.scale(context, pushes_.rows(), theta());
+      bonds_.hide(pushes_.rows(), [&] {
+        springs_.relax(context, pushes_.rows(), context.deforms() ? &cell_.jumps() : nullptr,
                        problem_.delassus);
       });
     } else {
       found = start(context, context.previous);
       // The same forces over this step.
       if (last_step_ > 0 && last_step_ != context.step)
-        for (Row& impulse : impulses) impulse *= context.step / last_step_;
+        for (Row& push : pushes_.rows()) push *= context.step / last_step_;
     }
-    if constexpr (bonding || !compliant) attraction_.add_to(impulses);
-    bonds_.offset(context, problem_.delassus, attraction_.pulls(), std::span<const Twist>(before_));
+    if constexpr (bonding || !compliant) attraction_.add_to(pushes_.rows());
+    bonds_.offset(context, problem_.delassus, attraction_.pulls(),
+                  std::span<const Twist>(velocities_.before));
     return found;
-  }
-  /// Fills the impulses from those of the step before: the first guess of rigid contacts, the memory of the springs of
-  /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact.
-  /// @returns how many contacts have a predecessor
-  std::size_t carry_impulses(const Context& context, const ContactsOf<Law, S>& before) {
-    const auto carry_by = [&](const auto& turn) {
-      const std::size_t found =
-          carry(before, context.contacts, before.impulses, context.contacts.impulses, turn, team_);
-      if (found < before.size()) hand_over(before, context.contacts, turn);
-      return found;
-    };
-    if constexpr (compliant)
-      return carry_by(springs_.turn(context, theta()));
-    else
-      return carry_by(ImpulseTurn<S>());
   }
   std::size_t start(const Context& context, const ContactsOf<Law, S>& before) {
     bridges_.save(context.contacts);
-    const std::size_t found = carry_impulses(context, before);
-    problem_.delassus.to_rows(context.contacts.impulses, team_);
+    const auto carry_by = [&](const auto& turn) {
+      return pushes_.carry(before, context.contacts, turn, problem_.delassus, team_);
+    };
+    std::size_t found;
+    if constexpr (compliant)
+      found = carry_by(springs_.turn(context, theta()));
+    else
+      found = carry_by(ImpulseTurn<S>());
     bridges_.restore(context.contacts);
     bonds_.start(context.contacts);
     return found;
@@ -307,32 +294,37 @@ class ImpulseDynamics {
   }
 
   MOREAU_INLINED void solve(const Context& context, StepReport& report) {
-    const std::span<Row> impulses(context.contacts.impulses);
+    const std::span<Row> pushes = pushes_.rows();
     solve_problem(context, report);
     if constexpr (bonding)
       if (attracts())
         soften_bonds(
-            context, bonds_, attraction_, problem_.delassus, impulses,
-            std::span<const MobilityRoot<S>>(roots_), free_, solver_tolerance(),
-            [&] { solve_problem(context, report); }, report.solve, shared_.get());
+            context, bonds_, attraction_, problem_.delassus, pushes,
+            std::span<const MobilityRoot<S>>(velocities_.roots), velocities_.free,
+            solver_tolerance(), [&] { solve_problem(context, report); }, report.solve,
+            shared_.get());
     if (!shared_)
       laws_.limit().apply(
-          context.bodies, problem_, impulses, springs_, solver_, workspace_,
+          context.bodies, problem_, pushes, springs_, solver_, workspace_,
           RestitutionLimit<S, Law>::negligible_velocity(context.grain_size, context.step),
-          bodies_alone(context) ? std::span<const Twist>(free_) : std::span<const Twist>(),
-          [&](std::size_t c) { return forced(context, c); }, report.solve);
-    if (cell_.moves(context)) cell_.leave(context, problem_.delassus);
+          bodies_alone(context) ? std::span<const Twist>(velocities_.free)
+                                : std::span<const Twist>(),
+          [&](std::size_t c) {
+            return velocities_.forced(context, c, laws_.velocities_before()[c], cell_.jumps(),
+                                      problem_.delassus);
+          },
+          report.solve);
+    if (cell_.moves(context)) cell_.leave(context, std::span<const Row>(pushes), problem_.delassus);
     report.solve.worst_gap = report.solve.worst_velocity * double(context.step);
     if constexpr (compliant)
-      springs_.measure(context, problem_, impulses, attraction_.pulls(), report, shared_.get());
+      springs_.measure(context, problem_, pushes, attraction_.pulls(), report, shared_.get());
     if constexpr (bonding) {
-      report.bond_load = bonds_.load(impulses, attraction_.pulls(), shared_.get());
+      report.bond_load = bonds_.load(pushes, attraction_.pulls(), shared_.get());
       report.bond_error = bonds_.error(report.bond_load, report.solve.residual);
-      bonds_.yield(context.materials, problem_.delassus, context.contacts, impulses, context.step);
+      bonds_.yield(context.materials, problem_.delassus, context.contacts, pushes, context.step);
     }
-    laws_.choose_variants(problem_, context.materials, context.contacts, solver_tolerance());
-    attraction_.take_from(impulses);
-    problem_.delassus.from_rows(impulses, team_);
+    laws_.choose_variants(problem_, context.materials, context.contacts,
+                          std::span<const Row>(pushes), solver_tolerance());
   }
 
   /// Of the residual [-]; 0: the solver does not say.
@@ -342,44 +334,9 @@ class ImpulseDynamics {
     else
       return 0;
   }
-  /// Whether the relative velocities of contacts without impulses are those of free_, but for the offsets of the laws.
+  /// Whether the relative velocities without impulses are those of the free bodies, but for the offsets of the laws.
   bool bodies_alone(const Context& context) const {
     return !attracts() && context.chords.empty() && !context.deforms();
-  }
-  /// What the external forces of the step and the attraction add to the relative velocity of contact c, a row of the
-  /// operator [m/s].
-  Row forced(const Context& context, std::size_t c) const {
-    const Contact<S>& contact = context.contacts.points[c];
-    Vector change = BodyDelassus<S>::relative_velocity(contact, free_[contact.a], free_[contact.b]);
-    change -= laws_.velocities_before()[c];
-    if (context.deforms()) change += cell_.jumps()[c];
-    const Vector along = problem_.delassus.turned(c, change);
-    Row row;
-    for (int k = 0; k < S::dim; ++k) row[k] = along[k];
-    if constexpr (RollingLaw<Law, S>) {
-      const Twist turn =
-          (free_[contact.b] - before_[contact.b]) - (free_[contact.a] - before_[contact.a]);
-      angular<S>(row) =
-          problem_.delassus.radius(c) *
-          (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(turn));
-    }
-    return row;
-  }
-  /// The relative velocity of the contact of a bond if no bond bears anything, without its offset, a row of the operator
-  /// [m/s].
-  Row unloaded(const Context& context, std::size_t c) const {
-    const Contact<S>& contact = context.contacts.points[c];
-    const Twist &a = unattracted_[contact.a], &b = unattracted_[contact.b];
-    Vector change = BodyDelassus<S>::relative_velocity(contact, a, b);
-    if (context.deforms()) change += cell_.jumps()[c];
-    const Vector along = problem_.delassus.turned(c, change);
-    Row row;
-    for (int k = 0; k < S::dim; ++k) row[k] = along[k];
-    if constexpr (RollingLaw<Law, S>)
-      angular<S>(row) =
-          problem_.delassus.radius(c) *
-          (S::angular_frame(problem_.delassus.frame(c)).transpose() * angular<S>(Twist(b - a)));
-    return row;
   }
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
@@ -387,8 +344,11 @@ class ImpulseDynamics {
     if constexpr (bonding)
       bonds_.refer(
           problem_.delassus, attraction_.pulls(), context.step,
-          [&](std::size_t c) { return unloaded(context, c); }, problem_.bonds);
-    report.solve = solver_.solve(problem_, std::span<Row>(context.contacts.impulses), workspace_);
+          [&](std::size_t c) {
+            return velocities_.unloaded(context, c, cell_.jumps(), problem_.delassus);
+          },
+          problem_.bonds);
+    report.solve = solver_.solve(problem_, pushes_.rows(), workspace_);
   }
 
   /// Counts the energy that bonds took; removes those that broke.
@@ -396,8 +356,8 @@ class ImpulseDynamics {
     if constexpr (bonding) {
       const auto losses = [&](std::size_t c) {
         ContactLosses one;
-        add_losses<S>(std::span<const Twist>(before_), context.contacts, c,
-                      laws_.velocities_before()[c], std::span<const Twist>(after_), one);
+        add_losses<S>(std::span<const Twist>(velocities_.before), context.contacts, c,
+                      laws_.velocities_before()[c], std::span<const Twist>(velocities_.after), one);
         return one;
       };
       bonds_.end_step(context.contacts, losses, springs_, report);
@@ -408,8 +368,8 @@ class ImpulseDynamics {
     // The mean of the velocities before and after has the cell's once, too.
     if (context.deforms()) laws_.add_jumps(cell_.jumps());
     const ContactLosses losses =
-        contact_losses<S>(team_, std::span<const Twist>(before_), context.contacts,
-                          laws_.velocities_before(), std::span(after_));
+        contact_losses<S>(team_, std::span<const Twist>(velocities_.before), context.contacts,
+                          laws_.velocities_before(), std::span(velocities_.after));
     report.friction += losses.friction;
     report.rolling += losses.rolling;
     report.dissipation += losses.dissipation;
@@ -417,11 +377,12 @@ class ImpulseDynamics {
   }
   /// After a step with another theta: bodies that no impulse moves are where the theta that was set leads them.
   void move_free_bodies([[maybe_unused]] const Context& context) {
-    const Scalar time = (theta_of(integrator_) - theta()) * context.step;
+    const Scalar time = (theta_of<Scalar>(integrator_) - theta()) * context.step;
     if (time == 0) return;
-    team_.share_each(after_.size(), 256, [&](std::size_t i) {
+    team_.share_each(velocities_.after.size(), 256, [&](std::size_t i) {
       if (!problem_.delassus.velocity_change(i).isZero(0)) return;
-      context.bodies.pose[i].position += time * linear<S>(Twist(after_[i] - before_[i]));
+      context.bodies.pose[i].position +=
+          time * linear<S>(Twist(velocities_.after[i] - velocities_.before[i]));
     });
   }
   /// V = V_free and what the impulses have changed. Throws if a velocity is not finite.
@@ -429,13 +390,7 @@ class ImpulseDynamics {
     [[maybe_unused]] bool attracted = false;
     if constexpr (AttractiveLaw<Law, S>)
       attracted = attraction_.find_changes(context.contacts, problem_.delassus, shared_.get());
-    team_.share_each(roots_.size(), 256, [&](std::size_t i) {
-      after_[i] = free_[i] + problem_.delassus.velocity_change(i);
-      if constexpr (AttractiveLaw<Law, S>)
-        if (attracted) after_[i] = unattracted_[i] + attraction_.change_of(i);
-      if (!all_finite(after_[i]))
-        throw_not_finite("Simulation::step", "velocity of body", i, after_[i]);
-    });
+    velocities_.find_after(problem_.delassus, attraction_, attracted, team_);
   }
 
   Team team_;
@@ -455,14 +410,9 @@ class ImpulseDynamics {
   ContactLaws<S, Law> laws_;
   CellEquation<S, Law> cell_;  // of a periodic cell that deforms
 
-  // One entry per body.
-  List<typename S::Angular> momentum_;  // angular, world axes [kg m^2/s]
-  // Velocities before the step, with the spins of momentum_ in the configuration of the contacts: the inertia turns.
-  List<Twist> before_;
-  List<Twist> free_, after_;  // velocities without and with the impulses
-  List<Twist> unattracted_;   // free_ without the attraction of the law, if it has one
-  List<MobilityRoot<S>> roots_;
-  List<unsigned char> touched_;  // by contacts
+  Pushes<S, Law> pushes_;
+  StepVelocities<S, Law> velocities_;
+  List<unsigned char> touched_;  // by contacts, one per body
   [[no_unique_address]] std::conditional_t<bonding, BondList<S, Law>, NoBonds> bonds_;
   [[no_unique_address]] std::conditional_t<bridging, BridgeBits<S, Law>, NoBridges> bridges_;
 };
@@ -472,19 +422,7 @@ template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::find_free_velocities(const Context& context,
                                                                        StepReport& report) {
   StepReport::StageClock clock;
-  const Bodies<S>& bodies = context.bodies;
-  team_.share_each(bodies.size(), 128, [&](std::size_t i) {
-    roots_[i] = bodies.mobility_root(i);
-    before_[i] = bodies.velocity[i];
-    const typename S::Inertia& root = roots_[i].angular;
-    if (bodies.rotates(i))
-      angular<S>(before_[i]) = product(root, typename S::Angular(product(root, momentum_[i])));
-  });
-  const std::span free(free_);
-  free_velocity<S>(moving_, bodies, context.gravity, momentum_, free, context.step, team_);
-  if (context.deforms())
-    CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, free, team_);
-  if constexpr (AttractiveLaw<Law, S>) unattracted_ = free_;
+  velocities_.find_free(moving_, context, team_);
   if (!shared_) attract(context);
   report.ms_assemble += clock.lap();
 }
@@ -494,7 +432,7 @@ template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::attract_again(const Context& context,
                                                                 StepReport& report) {
   StepReport::StageClock clock;
-  free_ = unattracted_;
+  velocities_.free = velocities_.unattracted;
   attract(context);
   report.ms_assemble += clock.lap();
 }
@@ -515,10 +453,11 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
     return is_rounding(context, contact, gap) ? Scalar(0) : gap;
   };
   const Scalar approach =
-      laws_.offset_velocities(context, std::span<const Twist>(before_), problem_,
-                              context.contacts.impulses, gap_of, cell_.jumps(), team_);
+      laws_.offset_velocities(context, std::span<const Twist>(velocities_.before), problem_,
+                              pushes_.rows(), gap_of, cell_.jumps(), team_);
   report.approach = double(approach * context.step / context.margin);
   solve(context, report);
+  pushes_.store(context.contacts, attraction_, problem_.delassus, team_);
   report.ms_contacts += clock.lap();
   find_velocities(context);
 }
@@ -527,8 +466,8 @@ template <class S, class Law, class Integrator, class Solver>
 void ImpulseDynamics<S, Law, Integrator, Solver>::finish(const Context& context,
                                                          StepReport& report) {
   measure_losses(context, report);
-  shifts_.turn_spins(correction_.shifts(), after_, team_);
-  advance_configuration<S>(moving_, context.bodies, after_, context.step, team_);
+  shifts_.turn_spins(correction_.shifts(), velocities_.after, team_);
+  advance_configuration<S>(moving_, context.bodies, velocities_.after, context.step, team_);
   last_step_ = context.step;
   attraction_.end_step();
   if constexpr (compliant) {

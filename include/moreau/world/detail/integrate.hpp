@@ -9,6 +9,14 @@
 
 namespace moreau::detail {
 
+/// The part of a step that comes after detection [-]; 1/2 of an integrator without theta().
+template <class Scalar>
+Scalar theta_of(const auto& integrator) {
+  if constexpr (requires { integrator.theta(); })
+    return Scalar(integrator.theta());
+  else
+    return Scalar(0.5);
+}
 /// @param momentum out: angular momentum of every body, world axes [kg m^2/s]
 template <class S>
 void predict_configuration(const auto& integrator, Bodies<S>& bodies,

@@ -4,7 +4,9 @@
 //
 //  1. Contacts that are too deep or nearly so are taken, and later those that the shifts so far could close. Each time
 //     the new contacts form a batch. A contact that no shift can close would change nothing. Only contacts whose gap is
-//     not far beyond the shifts are candidates; the others become candidates when the shifts have grown.
+//     not far beyond the shifts are candidates; the others become candidates when the shifts have grown. The search for
+//     candidates leaves out blocks of contacts of which none is deep enough, and shifts are read of bodies with a row alone:
+//     few contacts of a packing take part.
 //  2. A contact that is taken gets a row with J and M^-1 J^T: a visit then reads the row and two shifts.
 //  3. The rows of a batch are sorted by level: one more than the highest level of the rows before it that share a body
 //     with it that moves. The result is that of the order of the contacts, in which shifts go up a stack in one sweep.
@@ -22,6 +24,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <utility>
@@ -48,48 +51,48 @@ class OverlapSweeps {
   /// Least bodies of a chunk. The contact solver has twice as many, because its chunks leave SIMD lanes empty.
   static constexpr std::size_t bodies_of_chunk = 300;
 
+  /// Contacts of a block, see run().
+  static constexpr std::size_t block = 16;
+
   /// Begins without shifts.
-  /// @param masses of all bodies
-  void start(std::span<const InverseMass<S>> masses) {
-    shifts_.assign(masses.size() + 1, Twist::Zero());
-    moves_.resize(masses.size());
-    for (std::size_t i = 0; i < masses.size(); ++i) {
-      const auto& angular = masses[i].angular();
-      const bool rotates =
-          std::any_of(angular.begin(), angular.end(), [](Scalar x) { return x != 0; });
-      moves_[i] = rotates ? 2 : masses[i].moves();
-    }
+  void start(std::size_t bodies) {
+    shifts_.assign(bodies + 1, Twist::Zero());
+    reach_.assign(bodies, 0);
+    // Whole words, twice.
+    touched_.assign(2 * words(bodies) * word, 0);
   }
-  /// Whether impulses rotate a body.
-  bool rotates(std::size_t body) const { return moves_[body] == 2; }
   /// Pushes a body at a point, before the sweeps.
   /// @param push  mass times displacement, world axes [kg m]
   /// @param lever from the centre of the body to the point [m]
   void push(const InverseMass<S>& mass, std::uint32_t body, const Vector& push,
             const Vector& lever) {
     mass.add_change(shifts_[body], push, S::moment(lever, push));
+    touched_[body] = 1;
   }
   /// Makes sweeps.
   /// @param op      operator of the contacts
   /// @param depths  overlap beyond the slop, < 0 if there is none, one per contact [m]
+  /// @param deepest the largest depth of each block of contacts, or more [m]
   /// @param guess   of the shifts: contacts that shifts of this length could close are taken at once [m]
-  /// @param longest bound of the levers of bodies that rotate [m]
   /// @param target  function: depth -> what the change of the gap must not be below [m]
-  /// @param finish  function: finish(i, shift) gets the shift of body i: displacement [m], rotation vector [rad]
+  /// @param finish  function: finish(i, shift) gets the shift of a body i that has moved: displacement [m], rotation
+  ///                vector [rad]
   /// @param shared  bodies that other processes share; null: none
   void run(int sweeps, const auto& op, std::span<const Contact<S>> contacts,
-           std::span<const Scalar> depths, Scalar guess, Scalar longest, const auto& target,
-           const auto& finish, const Team& team, SharedBodies* shared) {
+           std::span<const Scalar> depths, std::span<const Scalar> deepest, Scalar guess,
+           const auto& target, const auto& finish, const Team& team, SharedBodies* shared) {
+    moves_ = op.freedoms();
     divide(contacts.size());
+    const Scalar longest = op.longest_lever();
     const auto work = [&](int rank, int size, const TeamBarrier& wait) {
       Member me{Share(slices_.size(), rank, size), Share(inner_, rank, size), rank + 1 == size};
       for (int k = 0; k < sweeps; ++k) {
         if (k <= 2 || k == 4 || k == 8 || k == 32) {
           if (me.is_apart) wait();
           for (std::size_t s = me.slices.begin; s < me.slices.end; ++s)
-            find_reach(slices_[s], longest, k == 0 ? guess : Scalar(0));
+            find_reach(slices_[s], longest);
           wait();
-          take(me, contacts, depths);
+          take(me, contacts, depths, deepest, k == 0 ? guess : Scalar(0));
           wait();
           fill(me, op, contacts, target);
         }
@@ -98,9 +101,11 @@ class OverlapSweeps {
         if (me.is_apart) continue;
         wait();
         if (rank == 0) visit_all(parts_[inner_]);
-        if (rank == 0 && shared)
+        if (rank == 0 && shared) {
           shared->average(std::span(shifts_[0].data(), moves_.size() * std::size_t{S::dofs}),
                           S::dofs);
+          std::fill(touched_.begin(), touched_.end(), 1);  // by any process
+        }
         wait();
       }
       if (me.is_apart) wait();
@@ -146,8 +151,9 @@ class OverlapSweeps {
   struct Part {
     std::array<Range, 6> batches{};  // rows
     std::size_t batch_count = 0;
-    Range bodies;           // that the contacts move
-    std::uint32_t* levels;  // one per body: above its rows in a batch
+    Range bodies;            // that the contacts move
+    std::uint32_t* levels;   // one per body: above its rows in a batch
+    unsigned char* touched;  // one per body: whether it has a row
   };
   /// What a member of a team works on, and how far all members are.
   struct Member {
@@ -166,16 +172,22 @@ class OverlapSweeps {
 
   MOREAU_COLD void divide(std::size_t contacts) {
     const std::size_t bodies = moves_.size();
-    for (int s = 0; s < slice_count; ++s)
-      slices_[std::size_t(s)] = {Share(contacts, s, slice_count), Share(bodies, s, slice_count)};
+    for (int s = 0; s < slice_count; ++s) {
+      Share of_contacts((contacts + block - 1) / block, s, slice_count),
+          of_bodies(words(bodies), s, slice_count);
+      of_contacts.begin *= block, of_contacts.end = std::min(contacts, of_contacts.end * block);
+      of_bodies.begin *= word, of_bodies.end = std::min(bodies, of_bodies.end * word);
+      slices_[std::size_t(s)] = {of_contacts, of_bodies};
+    }
     chunks_.assign(bodies, bodies_of_chunk);
     inner_ = chunks_.size();
     levels_.resize(2 * bodies);
-    reach_.resize(bodies);
     parts_.resize(inner_ + 1);
     for (std::size_t p = 0; p < inner_; ++p)
-      parts_[p] = {{}, 0, {chunks_.begin(p), chunks_.begin(p + 1)}, levels_.data()};
-    parts_[inner_] = {{}, 0, {0, bodies}, levels_.data() + bodies};
+      parts_[p] = {
+          {}, 0, {chunks_.begin(p), chunks_.begin(p + 1)}, levels_.data(), touched_.data()};
+    parts_[inner_] = {
+        {}, 0, {0, bodies}, levels_.data() + bodies, touched_.data() + touched_.size() / 2};
     counts_.resize(slices_.size() * parts_.size());
     // All memory at once: steps with more deep contacts need no more.
     if (rows_.size() < contacts) {
@@ -186,52 +198,72 @@ class OverlapSweeps {
     taken_ = candidates_.data() + rows_.size();
   }
 
-  /// Bounds how far each body of a slice has moved a point at a distance up to `longest` from its centre.
-  /// @param least of the bounds of bodies that move [m]
-  MOREAU_COMPILED_ONCE void find_reach(Slice& slice, Scalar longest, Scalar least) {
-    slice.reach = 0;
-    for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; ++i) {
-      const Twist& shift = shifts_[i];
-      Scalar reach = moves_[i] ? least : Scalar(0);
-      if (shift.squaredNorm() > 0)
-        reach = std::max(reach, linear<S>(shift).norm() + longest * angular<S>(shift).norm());
-      reach_[i] = reach;
-      slice.reach = std::max(slice.reach, reach);
+  static constexpr std::size_t word = sizeof(std::uint64_t);  // bodies whose marks are read at once
+  static std::size_t words(std::size_t bodies) { return (bodies + word - 1) / word; }
+  /// Calls use(i) for the bodies of a slice that a row or a push may have moved.
+  void for_each_touched(const Slice& slice, const auto& use) const {
+    const std::size_t half = touched_.size() / 2;
+    for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; i += word) {
+      std::uint64_t inner, between;
+      std::memcpy(&inner, &touched_[i], word);
+      std::memcpy(&between, &touched_[half + i], word);
+      if ((inner | between) == 0) continue;
+      for (std::size_t k = i; k < std::min(i + word, slice.bodies.end); ++k)
+        if (touched_[k] || touched_[half + k]) use(k);
     }
   }
+  /// Bounds how far each body of a slice has moved a point at a distance up to `longest` from its centre.
+  MOREAU_COMPILED_ONCE void find_reach(Slice& slice, Scalar longest) {
+    slice.reach = 0;
+    for_each_touched(slice, [&](std::size_t i) {
+      const Twist& shift = shifts_[i];
+      reach_[i] = shift.squaredNorm() > 0
+                      ? linear<S>(shift).norm() + longest * angular<S>(shift).norm()
+                      : Scalar(0);
+      slice.reach = std::max(slice.reach, reach_[i]);
+    });
+  }
   /// Takes the candidates that the shifts can close, as a batch.
+  /// @param least reach of bodies that move [m]
   MOREAU_COMPILED_ONCE void take(Member& me, std::span<const Contact<S>> contacts,
-                                 std::span<const Scalar> depths) {
-    Scalar reach = 0;
+                                 std::span<const Scalar> depths, std::span<const Scalar> deepest,
+                                 Scalar least) {
+    Scalar reach = least;
     for (const Slice& slice : slices_) reach = std::max(reach, slice.reach);
     const bool is_beyond = -2 * reach < me.listed;
     for (std::size_t s = me.slices.begin; s < me.slices.end; ++s) {
-      if (is_beyond) list(slices_[s], contacts, depths, -far * reach, me.listed);
-      take(slices_[s]);
+      if (is_beyond) list(slices_[s], contacts, depths, deepest, -far * reach, me.listed);
+      take(slices_[s], least);
     }
     if (is_beyond) me.listed = -far * reach;
   }
   /// Makes candidates of the contacts whose depth is in (least, most].
   void list(Slice& slice, std::span<const Contact<S>> contacts, std::span<const Scalar> depths,
-            Scalar least, Scalar most) {
+            std::span<const Scalar> deepest, Scalar least, Scalar most) {
     std::size_t end = slice.contacts.begin + slice.candidates;
-    for (std::size_t c = slice.contacts.begin; c < slice.contacts.end; ++c) {
-      if (!(depths[c] > least && depths[c] <= most)) continue;
-      const std::uint32_t a = contacts[c].a, b = contacts[c].b;
-      const auto part = std::min(chunks_.of_pair(a, b, moves_[a] != 0, moves_[b] != 0),
-                                 static_cast<std::uint32_t>(inner_));
-      candidates_[end++] = {depths[c], a, b, static_cast<std::uint32_t>(c), part};
+    for (std::size_t first = slice.contacts.begin; first < slice.contacts.end; first += block) {
+      if (!(deepest[first / block] > least)) continue;
+      for (std::size_t c = first; c < std::min(first + block, slice.contacts.end); ++c) {
+        if (!(depths[c] > least && depths[c] <= most)) continue;
+        const std::uint32_t a = contacts[c].a, b = contacts[c].b;
+        const auto part = std::min(chunks_.of_pair(a, b, moves_[a] != 0, moves_[b] != 0),
+                                   static_cast<std::uint32_t>(inner_));
+        candidates_[end++] = {depths[c], a, b, static_cast<std::uint32_t>(c), part};
+      }
     }
     slice.candidates = end - slice.contacts.begin;
   }
-  void take(Slice& slice) {
+  void take(Slice& slice, Scalar least) {
     const std::size_t first = slice.contacts.begin;
     std::uint32_t* const counts = &counts_[std::size_t(&slice - slices_.data()) * parts_.size()];
     std::fill(counts, counts + parts_.size(), 0);
     std::size_t taken = first, left = first;
+    const auto reach = [&](std::uint32_t body) {
+      return moves_[body] ? std::max(least, reach_[body]) : reach_[body];
+    };
     for (std::size_t k = first; k < first + slice.candidates; ++k) {
       const Candidate& candidate = candidates_[k];
-      if (candidate.depth + reach_[candidate.a] + reach_[candidate.b] > 0) {
+      if (candidate.depth + reach(candidate.a) + reach(candidate.b) > 0) {
         taken_[taken++] = candidate;
         ++counts[candidate.part];
       } else {
@@ -279,6 +311,8 @@ class OverlapSweeps {
       const Candidate& taken = taken_[batch_order[k].taken];
       fill(rows_[batch_order[batch_order[k].level].next++], op, contacts[taken.contact],
            taken.contact, target(taken.depth));
+      for (const std::uint32_t body : {taken.a, taken.b})
+        if (moves_[body]) part.touched[body] = 1;
     }
   }
   /// The level of a contact, above those of its bodies that move, which it raises.
@@ -308,7 +342,9 @@ class OverlapSweeps {
   }
 
   MOREAU_COMPILED_ONCE void finish_all(const Slice& slice, const auto& finish) const {
-    for (std::size_t i = slice.bodies.begin; i < slice.bodies.end; ++i) finish(i, shifts_[i]);
+    for_each_touched(slice, [&](std::size_t i) {
+      if (!shifts_[i].isZero(0)) finish(i, shifts_[i]);
+    });
   }
 
   /// Visits all rows of a part once.
@@ -338,9 +374,11 @@ class OverlapSweeps {
   }
 
   // One per body.
-  List<unsigned char> moves_;   // 0; 1: impulses move it; 2: they rotate it, too
-  List<Twist> shifts_;          // and zero at the end
-  List<Scalar> reach_;          // [m]
+  std::span<const unsigned char> moves_;  // not 0 if impulses move it; of the operator
+  List<unsigned char>
+      touched_;         // by rows inside of chunks, then by rows between chunks; whole words
+  List<Twist> shifts_;  // and zero at the end
+  List<Scalar> reach_;  // [m]
   List<std::uint32_t> levels_;  // inside chunks, then between chunks
   BodyChunks chunks_;
   std::array<Slice, std::size_t(slice_count)> slices_;

@@ -87,13 +87,13 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/disjoint_sets.hpp"
 #include "moreau/core/list.hpp"
-#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/solve_report.hpp"
+#include "moreau/world/detail/energy_by_bodies.hpp"
 #include "moreau/world/detail/island_energy.hpp"
 
 namespace moreau::detail {
@@ -181,78 +181,18 @@ class RestitutionLimit {
   bool all_lose(const Bodies<S>& bodies, const Problem& problem, std::span<const Row> impulses,
                 std::span<const typename S::Twist> free) {
     if (free.empty() || problem.delassus.has_cell()) return false;
-    bool any = false;  // may gain
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      const typename S::Twist change = problem.delassus.velocity_change(i);
-      if (bodies.is_prescribed(i) ? free[i].isZero(0) : change.isZero(0)) continue;
-      if (is_wall(bodies, i)) {
-        const double gain = energy_of_wall(bodies, i, change, free[i]);
-        if (std::isinf(gain)) return false;
-        any = any || !(gain <= 0);
-        continue;
-      }
-      if (!bodies.rotates(i) || !problem.delassus.inverse_mass(i).is_isotropic() ||
-          !(bodies.grain_mass[i] > 0))
-        return false;
-      typename S::Twist sum;
-      for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
-      // The inertia is bounded by its norm.
-      const double about = double(angular<S>(change).norm()) * double(angular<S>(sum).norm());
-      any = any || !(energy_along(bodies, i, change, sum) +
-                         bodies.inertia_body[i].template cast<double>().norm() * about <=
-                     0);
-    }
-    return !any || islands_lose(bodies, problem, impulses, free);
+    const BodiesGain gain = gain_of_bodies(bodies, problem.delassus, free);
+    if (gain != BodiesGain::perhaps_some) return gain == BodiesGain::none;
+    return islands_lose(bodies, problem, impulses, free);
   }
-  /// Twice the change of the energy of the translation of a body [J].
-  static double energy_along(const Bodies<S>& bodies, std::size_t i,
-                             const typename S::Twist& change, const typename S::Twist& sum) {
-    return double(bodies.grain_mass[i]) * double(linear<S>(change).dot(linear<S>(sum)));
-  }
-  /// Whether a body that forces move is a wall: it moves along axes of its own, and does not rotate.
-  static bool is_wall(const Bodies<S>& bodies, std::size_t i) {
-    return !bodies.rotates(i) && !(bodies.grain_mass[i] > 0);
-  }
-  /// Twice the change of the energy of such a wall [J]; infinite if it moves along an axis that is prescribed.
-  static double energy_of_wall(const Bodies<S>& bodies, std::size_t i,
-                               const typename S::Twist& change, const typename S::Twist& free) {
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    if (!angular<S>(free).isZero(0)) return unknown;
-    const typename S::Matrix axes = bodies.axes(i);
-    double sum = 0;
-    for (int k = 0; k < S::dim; ++k) {
-      const double own = double(axes.col(k).dot(linear<S>(free))),
-                   by = double(axes.col(k).dot(linear<S>(change)));
-      if (bodies.inverse_mass[i][k] > 0)
-        sum += by * (2 * own + by) / double(bodies.inverse_mass[i][k]);
-      else if (own != 0)
-        return unknown;
-    }
-    return sum;
-  }
-  /// all_lose() for grains, walls that forces move and bodies at rest, by the sums over the bodies of each island.
+  /// all_lose() by the sums over the bodies of each island.
   MOREAU_COLD bool islands_lose(const Bodies<S>& bodies, const Problem& problem,
                                 std::span<const Row> impulses,
                                 std::span<const typename S::Twist> free) {
     unite(bodies, problem, [&](std::size_t c) { return !impulses[c].isZero(0); });
     std::fill(islands_.begin(), islands_.end(), Island{});
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      if (bodies.is_prescribed(i)) continue;
-      const typename S::Twist change = problem.delassus.velocity_change(i);
-      if (is_wall(bodies, i)) {
-        if (!change.isZero(0))
-          islands_[sets_.find(i)].gain += energy_of_wall(bodies, i, change, free[i]);
-        continue;
-      }
-      typename S::Twist sum;
-      for (int k = 0; k < S::dofs; ++k) sum[k] = 2 * free[i][k] + change[k];
-      const typename S::Inertia axes = S::adjoint(bodies.pose[i].rotation);
-      const typename S::Angular turn = transposed_product(axes, angular<S>(change));
-      islands_[sets_.find(i)].gain +=
-          energy_along(bodies, i, change, sum) +
-          double(
-              product(bodies.inertia_body[i], turn).dot(transposed_product(axes, angular<S>(sum))));
-    }
+    add_gains(bodies, problem.delassus, free,
+              [this](std::size_t i) -> double& { return islands_[sets_.find(i)].gain; });
     return std::none_of(islands_.begin(), islands_.end(),
                         [](const Island& island) { return !(island.gain <= 0); });
   }

@@ -142,6 +142,24 @@ MOREAU_INLINED inline bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::d
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_materials(
+    const Materials<Law>& materials) {
+  require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
+          materials.count(), "must stay as it was");
+  const Materials<Law> before = std::exchange(materials_, materials);
+  if (!cell().is_open() && reach() > detail::reach_of<S>(before)) {
+    try {
+      detector_.set_cell(cell(), lengths(), "Simulation::set_materials");
+    } catch (...) {
+      materials_ = before;
+      throw;
+    }
+  }
+  if constexpr (set_valued) dynamics_.keep_materials(before);
+  assembly_.set_changed();
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 void Simulation<ShapeT, Law, Integrator, Broad, Solver>::remove(std::span<const BodyId> grains,
                                                                 const char* function) {
   const List<unsigned char>& removed = assembly_.mark(grains, function);

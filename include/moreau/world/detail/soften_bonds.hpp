@@ -22,7 +22,7 @@ namespace moreau::detail {
 /// most BondList::max_solutions solutions, that of the caller included, is not compared any more: the report then says
 /// that the problem is not solved (`capped`).
 /// @param op       operator of the problem
-/// @param impulses of the present solution [N s]
+/// @param pushes   p of the present solution, see pushes.hpp [N s]
 /// @param roots    M^-1/2 of every body
 /// @param free     velocities without contacts, one per body [m/s, rad/s]
 /// @param tolerance of the solver [-]
@@ -31,13 +31,13 @@ namespace moreau::detail {
 template <class S, class Law, class Operator>
 void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
                   Attraction<S, Law>& attraction, Operator& op,
-                  std::span<typename Operator::Vector> impulses,
+                  std::span<typename Operator::Vector> pushes,
                   std::span<const MobilityRoot<S>> roots, auto& free, double tolerance,
                   const auto& solve, SolveReport& report, SharedBodies* shared) {
   using Scalar = typename S::Scalar;
   const double enough = std::max(tolerance, std::is_same_v<Scalar, float> ? 1e-4 : 1e-8);
   const auto change = [&](std::size_t c, Scalar pull) {
-    attraction.change(c, pull, context.contacts, roots, impulses[c]);
+    attraction.change(c, pull, context.contacts, roots, pushes[c]);
     if constexpr (CompliantLaw<Law, S>) {
       auto spring = op.compliance(c);
       spring.tail(spring.size() - 1).setZero();
@@ -46,10 +46,10 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
   };
   for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
     double sums[] = {0, 0};
-    sums[0] = bonds.find_strengths(context.materials, op, context.contacts, impulses,
+    sums[0] = bonds.find_strengths(context.materials, op, context.contacts, pushes,
                                    attraction.pulls(), context.step);
-    for (std::size_t c = 0; c < impulses.size(); ++c) {
-      auto load = impulses[c];
+    for (std::size_t c = 0; c < pushes.size(); ++c) {
+      auto load = pushes[c];
       load[0] -= attraction.pulls()[c];
       sums[1] += load.template cast<double>().squaredNorm();
     }

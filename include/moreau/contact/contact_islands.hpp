@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "moreau/core/disjoint_sets.hpp"
+#include "moreau/core/list.hpp"
+
+namespace moreau::detail {
+
+/// The small islands of a contact problem. An island is a set of bodies that contacts connect. A body that cannot move
+/// connects nothing. No impulse of one island changes a velocity of another.
+///
+/// Islands are in the order of their first contact, and contacts within an island in that of the
+/// problem. The contacts of large islands are not listed: a packing is one island of nearly all contacts.
+class ContactIslands {
+ public:
+  static constexpr std::size_t most_bodies = 200;  ///< of a small island
+
+  /// Finds the islands unless they are known.
+  /// @param op operator of the contacts
+  template <class Operator>
+  void find_once(const Operator& op) {
+    if (!std::exchange(are_known_, true)) find(op);
+  }
+  void forget() { are_known_ = false; }  ///< when the contacts change
+
+  std::size_t size() const { return bodies_.size(); }  ///< number of small islands
+  /// Whether there are large islands.
+  bool has_large() const { return has_large_; }
+  /// Number of bodies of an island that can move and have a contact.
+  std::size_t bodies(std::size_t island) const { return bodies_[island]; }
+  /// Number of pairs of bodies of an island that both move and have contacts. Contacts of a pair that do not follow one
+  /// another count as several pairs.
+  std::size_t pairs(std::size_t island) const { return pairs_[island]; }
+  /// The contacts of an island, ascending.
+  std::span<const std::uint32_t> contacts(std::size_t island) const {
+    return std::span(contacts_).subspan(first_[island], first_[island + 1] - first_[island]);
+  }
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// Of each body, and of the island in which it has the smallest number.
+  struct Found {
+    std::uint32_t island;  // its number; none: not small, or not numbered yet
+    std::uint32_t bodies;  // that can move and have a contact
+    std::uint32_t pairs;   // of bodies that can move
+  };
+
+  /// Bodies that touch, and their contacts, which follow one another.
+  struct Pair {
+    std::uint32_t a, b;
+    std::uint32_t first;   // contact
+    std::uint32_t island;  // none: not small
+  };
+
+  template <class Operator>
+  void find(const Operator& op) {
+    const std::size_t bodies = op.body_count(), contacts = op.size();
+    const std::span<const unsigned char> freedoms = op.freedoms();
+    sets_.assign(bodies);
+    found_.assign(bodies, {none, 0, 0});
+    // A later step with the first small island allocates no memory.
+    touching_.resize(contacts + 1);
+    contacts_.resize(contacts);
+    bodies_.reserve(bodies);
+    pairs_.reserve(bodies);
+    first_.reserve(bodies + 2);
+    std::size_t count = 0;
+    std::array<std::uint32_t, 2> before{none, none};
+    std::uint32_t root = none;  // of the set of before[0]
+    for (std::size_t c = 0; c < contacts; ++c) {
+      const auto pair = op.bodies(c);
+      if (pair == before) continue;
+      const auto [a, b] = pair;
+      touching_[count++] = {a, b, static_cast<std::uint32_t>(c), none};
+      found_[a].bodies = freedoms[a] != 0;
+      found_[b].bodies = freedoms[b] != 0;
+      if (a != before[0]) root = sets_.find(a);
+      before = pair;
+      if (!freedoms[a] || !freedoms[b]) continue;
+      ++found_[a].pairs;
+      const std::uint32_t other = sets_.find(b);
+      if (other != root) root = sets_.join(root, other);
+    }
+    touching_[count] = {none, none, static_cast<std::uint32_t>(contacts), none};
+    add_up();
+    number(std::span(touching_).first(count), freedoms);
+  }
+  /// Adds the bodies and pairs of each island up where its smallest number is.
+  void add_up() {
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const std::uint32_t root = sets_.find(i);  // at most i
+      if (root == i) continue;
+      found_[root].bodies += found_[i].bodies;
+      found_[root].pairs += found_[i].pairs;
+      found_[i] = {none, 0, 0};
+    }
+  }
+  /// Numbers the small islands and lists their contacts.
+  void number(std::span<Pair> touching, std::span<const unsigned char> freedoms) {
+    bodies_.clear();
+    pairs_.clear();
+    first_.assign(2, 0);
+    has_large_ = false;
+    for (Pair& pair : touching) {
+      if (!freedoms[pair.a] && !freedoms[pair.b]) continue;
+      pair.island = island_of(found_[sets_.find(freedoms[pair.a] ? pair.a : pair.b)]);
+      if (pair.island != none) first_[pair.island + 2] += (&pair + 1)->first - pair.first;
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    contacts_.resize(first_.back());
+    if (contacts_.empty()) return;
+    // first_[k + 1] is the next free entry of island k, and at the end the first of island k + 1.
+    for (const Pair& pair : touching) {
+      if (pair.island == none) continue;
+      for (std::uint32_t c = pair.first; c < (&pair + 1)->first; ++c)
+        contacts_[first_[pair.island + 1]++] = c;
+    }
+  }
+  /// The number of an island, which it gets here; none: it is large.
+  std::uint32_t island_of(Found& found) {
+    if (found.bodies > most_bodies) {
+      has_large_ = true;
+      return none;
+    }
+    if (found.island == none) {
+      found.island = static_cast<std::uint32_t>(bodies_.size());
+      bodies_.push_back(found.bodies);
+      pairs_.push_back(found.pairs);
+      first_.push_back(0);
+    }
+    return found.island;
+  }
+
+  bool are_known_ = false;
+  bool has_large_ = false;
+  DisjointSets sets_;
+  List<Found> found_;
+  List<Pair>
+      touching_;  // in the order of the contacts, then one that begins after the last contact
+  List<std::uint32_t> contacts_;
+  List<std::size_t> bodies_, pairs_, first_;
+};
+
+}  // namespace moreau::detail

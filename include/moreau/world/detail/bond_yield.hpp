@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// How a bond yields in a step, and its strength meanwhile (bond_list.hpp). The velocity at which it yields is that of its
+// bodies, less that of its springs, without the correction of a rigid bond, which counts the motion up to detection as an
+// error. Where the bond does not yield, the correction goes on.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "moreau/core/twist.hpp"
+#include "moreau/solve/concepts.hpp"
+
+namespace moreau::detail {
+
+/// A bond in the solution of the contact problem of a step.
+template <class S, class Law>
+struct LoadedBond {
+  using Scalar = typename S::Scalar;
+  using Operator = OperatorOf<Law, S>;
+  using Row = typename Operator::Vector;
+
+  const Law& law;
+  const Operator& op;   ///< with the velocities of the impulses
+  std::size_t contact;  ///< of the bond
+  const Row& push;      ///< p of the contact, see pushes.hpp [N s]
+  const Row& drift;     ///< the correction in the offset of a rigid bond [m/s]
+  Scalar step;          ///< h [s]
+
+  /// p without what is rounding beside the strength of the bond.
+  Row load() const {
+    Row p = push;
+    const Scalar small = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    if (p[0] <= small * step * law.strength().tension) p[0] = 0;
+    return p;
+  }
+  /// The velocity at which the bond yields under the load p.
+  Row yielding(const Row& p) const { return law.yielding(p, Row(op.velocity(contact) - drift)); }
+  /// The strength in the step of a bond that had the strength s before. Let x be the share that it loses by its velocity. It
+  /// is the mean over the opening, s - x / 2, or s^2 / (2 x) if the bond breaks: so it dissipates the area under the line of
+  /// softening, whatever the step.
+  Scalar strength_in_step(Scalar s) const {
+    const Row p = load();
+    if (!law.yields(p)) return s;
+    const Scalar x = step * law.softening(yielding(p));
+    return !std::isfinite(x) ? s : x < s ? s - x / 2 : s * s / (2 * x);
+  }
+};
+
+/// How a bond yields in a step.
+template <class S>
+struct BondYield {
+  typename S::Scalar loss = 0;                    ///< of its strength [-]
+  typename S::Vector slip = S::Vector::Zero();    ///< in the frame of the bond [m]
+  typename S::Angular bend = S::Angular::Zero();  ///< the same [rad]
+};
+/// @param frame of the bond, world axes
+template <class S, class Law>
+BondYield<S> yield_of(const LoadedBond<S, Law>& bond, const typename S::Matrix& frame) {
+  BondYield<S> yield;
+  const auto p = bond.load();
+  if (!bond.law.yields(p)) return yield;
+  const auto w = bond.yielding(p);
+  const auto& of_contact = bond.op.frame(bond.contact);
+  yield.loss = bond.step * bond.law.softening(w);
+  const typename S::Matrix turned = frame.transpose() * of_contact;
+  yield.slip = bond.step * (turned * linear<S>(w));
+  yield.bend =
+      bond.step / bond.op.radius(bond.contact) *
+      (S::angular_frame(frame).transpose() * (S::angular_frame(of_contact) * angular<S>(w)));
+  return yield;
+}
+
+/// The search for the strength in the step for which the problem is solved. A secant step makes that for one bond end
+/// after two solutions.
+template <class Scalar>
+struct Softening {
+  Scalar now = -1,
+         found =
+             -1;  ///< the strength in the last solution, and that which belongs to it; < 0: none
+  Scalar change = 0;  ///< of the impulse of the attraction, for the next solution [N s]
+
+  /// @param pull impulse of the attraction in the solution [N s]
+  /// @param full the same of a bond with its whole strength [N s]
+  /// @param belongs strength in the step that belongs to the solution
+  /// @param most strength before the step
+  /// @returns the impulse that the solution lacks [N s]
+  Scalar go_on(Scalar pull, Scalar full, Scalar belongs, Scalar most) {
+    const Scalar share = pull / full;
+    // Equal to rounding: T h s, divided by T h, is not s to the last bit.
+    if (std::abs(belongs - share) <= 4 * std::numeric_limits<Scalar>::epsilon() * most)
+      belongs = share;
+    const Scalar slope = found < 0 || share == now ? Scalar(0) : (belongs - found) / (share - now);
+    const Scalar next = share + (belongs - share) / (1 - std::clamp(slope, Scalar(0), Scalar(0.9)));
+    const Scalar kept = std::clamp(next, Scalar(0), most);
+    now = share;
+    found = belongs;
+    change = found == now ? Scalar(0) : full * (kept - now);
+    return full * (found - now);
+  }
+};
+
+}  // namespace moreau::detail
