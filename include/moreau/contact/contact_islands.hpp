@@ -82,9 +82,11 @@ class ContactIslands {
       if (pair == before) continue;
       const auto [a, b] = pair;
       touching_[count++] = {a, b, static_cast<std::uint32_t>(c), none};
-      found_[a].bodies = freedoms[a] != 0;
       found_[b].bodies = freedoms[b] != 0;
-      if (a != before[0]) root = sets_.find(a);
+      if (a != before[0]) {
+        found_[a].bodies = freedoms[a] != 0;
+        root = sets_.find(a);
+      }
       before = pair;
       if (!freedoms[a] || !freedoms[b]) continue;
       ++found_[a].pairs;
@@ -111,10 +113,13 @@ class ContactIslands {
     pairs_.clear();
     first_.assign(2, 0);
     has_large_ = false;
+    std::uint32_t last = none, island = none;  // a body, and its island
     for (Pair& pair : touching) {
-      if (!freedoms[pair.a] && !freedoms[pair.b]) continue;
-      pair.island = island_of(found_[sets_.find(freedoms[pair.a] ? pair.a : pair.b)]);
-      if (pair.island != none) first_[pair.island + 2] += (&pair + 1)->first - pair.first;
+      const std::uint32_t body = freedoms[pair.a] ? pair.a : pair.b;
+      if (!freedoms[body]) continue;
+      if (body != last) island = island_of(found_[sets_.find(last = body)]);
+      pair.island = island;
+      if (island != none) first_[island + 2] += (&pair + 1)->first - pair.first;
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
