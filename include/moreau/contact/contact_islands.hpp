@@ -94,11 +94,12 @@ class ContactIslands {
       if (other != root) root = sets_.join(root, other);
     }
     touching_[count] = {none, none, static_cast<std::uint32_t>(contacts), none};
-    add_up();
-    number(std::span(touching_).first(count), freedoms);
+    bodies_.clear();
+    if (add_up()) number(std::span(touching_).first(count), freedoms);
   }
   /// Adds the bodies and pairs of each island up where its smallest number is.
-  void add_up() {
+  /// @returns whether an island is small
+  bool add_up() {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const std::uint32_t root = sets_.find(i);  // at most i
       if (root == i) continue;
@@ -106,13 +107,18 @@ class ContactIslands {
       found_[root].pairs += found_[i].pairs;
       found_[i] = {none, 0, 0};
     }
+    bool has_small = false;
+    has_large_ = false;
+    for (const Found& island : found_) {
+      has_large_ = has_large_ || island.bodies > most_bodies;
+      has_small = has_small || (island.bodies > 0 && island.bodies <= most_bodies);
+    }
+    return has_small;
   }
   /// Numbers the small islands and lists their contacts.
   void number(std::span<Pair> touching, std::span<const unsigned char> freedoms) {
-    bodies_.clear();
     pairs_.clear();
     first_.assign(2, 0);
-    has_large_ = false;
     std::uint32_t last = none, island = none;  // a body, and its island
     for (Pair& pair : touching) {
       const std::uint32_t body = freedoms[pair.a] ? pair.a : pair.b;
@@ -123,7 +129,6 @@ class ContactIslands {
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
-    if (contacts_.empty()) return;
     // first_[k + 1] is the next free entry of island k, and at the end the first of island k + 1.
     for (const Pair& pair : touching) {
       if (pair.island == none) continue;
@@ -133,10 +138,7 @@ class ContactIslands {
   }
   /// The number of an island, which it gets here; none: it is large.
   std::uint32_t island_of(Found& found) {
-    if (found.bodies > most_bodies) {
-      has_large_ = true;
-      return none;
-    }
+    if (found.bodies > most_bodies) return none;
     if (found.island == none) {
       found.island = static_cast<std::uint32_t>(bodies_.size());
       bodies_.push_back(found.bodies);
