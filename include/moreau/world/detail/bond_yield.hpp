@@ -48,7 +48,7 @@ struct LoadedBond {
   }
 };
 
-/// How a bond yields in a step.
+/// How a bond yields in a step: a step that is repeated with more contacts must not have changed the bond.
 template <class S>
 struct BondYield {
   typename S::Scalar loss = 0;                    ///< of its strength [-]

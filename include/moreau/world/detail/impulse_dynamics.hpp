@@ -6,8 +6,8 @@
 //      processes it is added in 3, after the bodies are split)
 //   3. assemble(): the Delassus operator; bodies that other processes share are split
 //   4. warm_start(): the unknowns p of the contact problem (pushes.hpp) from the impulses r of the step before: turned with
-//      the contacts, into rows of the operator (Pushes::carry()), with springs those of the same forces over this step
-//      (ContactSprings::scale()), with the push against the attraction (Attraction::add_to()). The memory of springs and
+//      the contacts, into rows of the operator (Pushes::carry()), of the same forces over this step (with springs by
+//      ContactSprings::scale()), with the push against the attraction (Attraction::add_to()). The memory of springs and
 //      bonds is added to b
 //   5. correct_overlaps(): bodies move, velocities do not
 //   6. ContactLaws::list_variants(): the table of all laws with their variants (each contact gets its own in 7)
