@@ -105,9 +105,10 @@ class Placement<ShapeT> {
     load(shape_->face_offsets());
     prefetch_rows();
   }
-  /// Begins to load what the narrow phase reads.
+  /// Begins to load what the narrow phase reads of most pairs. Of the offsets it reads one or two, but for a search.
   void prefetch_contact() const {
-    prefetch_rows();
+    vertices_.prefetch();
+    normals_.prefetch();
     if constexpr (requires { shape_->prefetch(); }) shape_->prefetch();
   }
 
