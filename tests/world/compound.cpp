@@ -4,6 +4,7 @@
 #include "moreau/shape/compound.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <random>
 #include <span>
@@ -86,6 +87,32 @@ TEST_CASE_TEMPLATE("a ball in the notch of an L touches both arms", Part, Polygo
   REQUIRE(keys.size() == 2);
   CHECK(keys[0].part_a == 0);
   CHECK(keys[1].part_a == 1);
+}
+
+TEST_CASE_TEMPLATE("a ball that rolls down a ball of an obstacle, whatever the order of its parts",
+                   Part, Polygon<>, Polyhedron<>) {
+  using S = SpaceOf<Part>;
+  using Mixed = OneOf<Part, BallIn<S>>;
+  using Grain = Compound<Mixed>;
+  using Law = SignoriniCoulomb<>;
+  const Part foot =
+      compounds::box<Part>(compounds::point<S>(-1, -4, -1), compounds::point<S>(1, -1.5, 1));
+  const typename Grain::Part round{BallIn<S>(1), {}}, stand{foot, {foot.centroid_of_input()}};
+  std::vector<typename S::Vector> ends;
+  for (const bool round_first : {true, false}) {
+    const Grain obstacle = round_first ? Grain({round, stand}) : Grain({stand, round});
+    Simulation<Grain, Law> world(1, Materials<Law>(1, Law(0.9)));
+    const BodyId base =
+        world.add_grain(world.add_shape(obstacle), {obstacle.centroid_of_input()}, 1);
+    world.prescribe_motion(base);
+    const BodyId ball = world.add_grain(world.add_shape(Grain({{BallIn<S>(0.5), {}}})),
+                                        {compounds::point<S>(0.3, std::sqrt(1.5 * 1.5 - 0.09))}, 1);
+    world.set_gravity(compounds::point<S>(0, -9.81));
+    for (int k = 0; k < 50; ++k) world.step(5e-3);
+    ends.push_back(world.pose(ball).position);
+  }
+  CHECK(ends[0][0] > 0.32);
+  CHECK((ends[0] - ends[1]).norm() < 1e-12);
 }
 
 TEST_CASE_TEMPLATE("a run of compound grains continues with the same bits, with any team", Part,

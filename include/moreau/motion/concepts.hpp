@@ -20,6 +20,9 @@ namespace moreau {
 ///
 /// h is the step [s], and gravity is an acceleration [m/s^2]. momentum, free and after have one
 /// element per body. Velocities are twists (v, w) [m/s, rad/s]. All quantities are in world axes.
+///
+/// Optional: theta(), the part of the step that comes after detection [-]. Springs, bonds and cells that deform need it;
+/// without it they take 1/2.
 template <class I, class S>
 concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
                                      std::span<typename S::Angular> momentum,

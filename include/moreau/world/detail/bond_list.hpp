@@ -248,15 +248,19 @@ class BondList {
                         const ContactsOf<Law, S>& contacts, std::span<const Row> pushes,
                         std::span<const Scalar> pulls, Scalar step) {
     double sum = 0;
+    farthest_ = 0;
     for_each([&](std::size_t i, std::size_t c) {
       const LoadedBond<S, Law> bond = loaded(i, c, materials, op, contacts, pushes, step);
-      const Scalar strength = bonds_[i].strength_left;
-      const double lacks = double(softening_[i].go_on(pulls[c], step * bond.law.strength().tension,
-                                                      bond.strength_in_step(strength), strength));
+      const Scalar strength = bonds_[i].strength_left, full = step * bond.law.strength().tension;
+      const double lacks =
+          double(softening_[i].go_on(pulls[c], full, bond.strength_in_step(strength), strength));
       sum += lacks * lacks;
+      if (lacks != 0) farthest_ = std::max(farthest_, std::abs(lacks) / double(full * strength));
     });
     return sum;
   }
+  /// The largest difference of find_strengths() for a bond, as a share of the strength that it has left [-].
+  double farthest() const { return farthest_; }
   /// Lets the attraction of the bonds fall to the strengths found.
   /// @param change function: (contact, change of the impulse of its attraction [N s])
   void soften(const auto& change) const {
@@ -403,6 +407,7 @@ class BondList {
   ContactsOf<Law, S> merged_;
   std::size_t undetected_ = 0;
   std::size_t new_breakages_ = 0;
+  double farthest_ = 0;  // see farthest()
 };
 
 }  // namespace moreau::detail

@@ -139,7 +139,7 @@ class ChordVelocities {
       if (bodies.rotates(i)) continue;
       if (!angular<S>(bodies.velocity[i]).isZero(0))
         set(i, turns);
-      else if (is_ball(assembly, i))
+      else if (has_ball(assembly, i))
         set(i, ball_at_rest);
     }
     for (const CylinderBody<S>& cylinder : assembly.cylinders()) set(cylinder.body.index(), turns);
@@ -148,18 +148,30 @@ class ChordVelocities {
   bool is_marked(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
                  const ContactKey& key) const {
     const unsigned char mark = std::max(marks_[contact.a], marks_[contact.b]);
-    return mark == turns || (mark == ball_at_rest && !is_bond(key) &&
-                             is_ball(assembly, contact.a) && is_ball(assembly, contact.b));
+    return mark == turns ||
+           (mark == ball_at_rest && !is_bond(key) && is_ball(assembly, contact.a, key.part_a) &&
+            is_ball(assembly, contact.b, key.part_b));
   }
-  /// Whether a body is a ball, or several.
-  static bool is_ball(const Assembly<ShapeT>& assembly, std::size_t body) {
+  /// Whether a part of a body is a ball.
+  static bool is_ball(const Assembly<ShapeT>& assembly, std::size_t body,
+                      [[maybe_unused]] std::size_t part) {
     const Bodies<S>& bodies = assembly.bodies();
     if (!(bodies.grain_mass[body] > 0)) return false;
     const ShapeT& shape = assembly.shape_of(bodies.id[body]);
     if constexpr (CompoundShape<ShapeT>)
-      return core_is_point(shape.parts().front().shape);
+      return core_is_point(shape.parts()[part].shape);
     else
       return core_is_point(shape);
+  }
+  /// Whether a body is a ball, or has one.
+  static bool has_ball(const Assembly<ShapeT>& assembly, std::size_t body) {
+    std::size_t parts = 1;
+    if constexpr (CompoundShape<ShapeT>)
+      if (assembly.bodies().grain_mass[body] > 0)
+        parts = assembly.shape_of(assembly.bodies().id[body]).parts().size();
+    for (std::size_t part = 0; part < parts; ++part)
+      if (is_ball(assembly, body, part)) return true;
+    return false;
   }
   static const CylinderBody<S>* cylinder_of(const Assembly<ShapeT>& assembly, std::uint32_t body) {
     for (const CylinderBody<S>& cylinder : assembly.cylinders())

@@ -18,7 +18,7 @@ namespace moreau::detail {
 
 /// Solves the contact problem again while the strength of bonds that yield falls within the step: until the impulses
 /// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses on the bodies,
-/// as its residual does. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
+/// as its residual does, and for each bond relative to its own strength: beside a large load elsewhere, too. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
 /// most BondList::max_solutions solutions, that of the caller included, is not compared any more: the report then says
 /// that the problem is not solved (`capped`).
 /// @param op       operator of the problem
@@ -53,8 +53,12 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
       load[0] -= attraction.pulls()[c];
       sums[1] += load.template cast<double>().squaredNorm();
     }
-    if (shared) shared->sum(sums);
-    if (sums[0] <= enough * enough * sums[1]) return;
+    double farthest = bonds.farthest();
+    if (shared) {
+      shared->sum(sums);
+      shared->largest(std::span(&farthest, 1));
+    }
+    if (sums[0] <= enough * enough * sums[1] && farthest <= enough) return;
     bonds.soften(change);
     attraction.offset(context.contacts, free, op, shared);
     const int sweeps = report.sweeps;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Bonds whose strength and whose stretch are near rounding, in single and double precision.
+#include <cmath>
+#include <cstddef>
+#include <doctest/doctest.h>
+#include <vector>
+
+#include "moreau/law/bonded.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double radius = 0.01;
+
+/// Balls in a row along x, bonded to their neighbours.
+template <class ShapeT>
+struct Chain {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = Bonded<T>;
+
+  Simulation<ShapeT, Law> world;
+  std::vector<BodyId> grains;
+
+  Chain(int count, T energy, T density, const Vector& origin)
+      : world(T(2 * radius),
+              Materials<Law>(1, Law(BondStrength<T>{T(20), T(12), T(8), energy}, T(0.4)))) {
+    const ShapeId shape = world.add_shape(ShapeT(T(radius)));
+    for (int k = 0; k < count; ++k) {
+      Vector x = origin;
+      x[0] += T(2 * radius * k);
+      grains.push_back(world.add_grain(shape, Pose<S>(x), density));
+    }
+    world.prescribe_motion(grains.front());
+    CHECK(world.bond_touching(T(1e-5)) == std::size_t(count - 1));
+  }
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("bond: a partly softened bond that bears nothing needs no further solution",
+                   ShapeT, Disk<float>, Ball<float>, Disk<double>, Ball<double>) {
+  using Pair = Chain<ShapeT>;
+  using T = typename Pair::T;
+  using Vector = typename Pair::Vector;
+  for (const int pulled : {3, 11, 17, 26, 37}) {
+    CAPTURE(pulled);
+    Pair pair(2, T(1e-3), T(1e12), Vector::Zero());
+    auto& world = pair.world;
+    // It opens by a hundredth of what breaks it in each step.
+    world.set_velocity(pair.grains[0], Vector(-T(1e-2) * Vector::UnitX()));
+    for (int k = 0; k < pulled; ++k) world.step(T(1e-4));
+    REQUIRE(world.bonds().size() == 1);
+    const double left = double(world.bonds()[0].strength_left);
+    CHECK(left < 1 - 0.005 * pulled);
+    CHECK(left > 0);
+    world.set_velocity(pair.grains[0], Vector(Vector::Zero()));
+    world.set_velocity(pair.grains[1], Vector(Vector::Zero()));
+    for (int k = 0; k < 20; ++k) {
+      const StepReport report = world.step(T(1e-4) * T(1 + 0.03 * k));
+      CHECK(report.solve.converged);
+      if (k > 2) CHECK(report.solve.sweeps <= 20);
+    }
+    CHECK(double(world.bonds()[0].strength_left) == left);
+  }
+}
+
+TEST_CASE_TEMPLATE("bond: a closed row far from the origin bears its weight alone", ShapeT,
+                   Disk<float>, Ball<float>, Disk<double>, Ball<double>) {
+  using Row = Chain<ShapeT>;
+  using S = typename Row::S;
+  using T = typename Row::T;
+  using Vector = typename Row::Vector;
+  for (const double away : {0.0, 10.0}) {
+    CAPTURE(away);
+    Row row(5, T(0), T(100), Vector(T(away) * Vector::Ones()));
+    auto& world = row.world;
+    world.prescribe_motion(row.grains.back());
+    Vector gravity = Vector::Zero();
+    gravity[S::dim - 1] = T(-9.81);
+    world.set_gravity(gravity);
+    const double weight = 9.81 * double(world.bodies().grain_mass[row.grains[1].index()]);
+    double largest = 0;
+    int unsolved = 0;
+    const T h = T(1e-4);
+    for (int k = 0; k < 200; ++k) {
+      unsolved += world.step(h).solve.converged ? 0 : 1;
+      if (k < 20) continue;
+      for (const auto& impulse : world.contacts().impulses)
+        largest = std::max(largest, double(linear<S>(impulse).norm() / h));
+    }
+    CAPTURE(largest);
+    CHECK(unsolved == 0);
+    CHECK(largest < 1.6 * weight);
+    CHECK(world.bonds().size() == 4);
+  }
+}
+
+TEST_CASE_TEMPLATE("bond: a large load elsewhere does not change the fracture energy", ShapeT,
+                   Disk<double>, Ball<double>) {
+  using Pair = Chain<ShapeT>;
+  using S = typename Pair::S;
+  using Vector = typename Pair::Vector;
+  double energy[2];
+  for (const bool beside : {false, true}) {
+    Pair pair(2, 1e-3, 1e12, Vector::Zero());
+    auto& world = pair.world;
+    if (beside) {
+      const Vector up = Vector::Unit(S::dim - 1);
+      world.add_wall(up, Vector(-up));
+      const ShapeId shape = world.add_shape(ShapeT(radius));
+      const Vector place = 3 * Vector::UnitX() + (radius - 1) * up;
+      world.set_force(world.add_grain(shape, Pose<S>(place), 1000), Vector(-1e9 * up));
+    }
+    world.set_velocity(pair.grains[0], Vector(-0.05 * Vector::UnitX()));
+    for (int k = 0; k < 60 && !world.bonds().empty(); ++k) world.step(1e-4);
+    REQUIRE(world.breakages().size() == 1);
+    energy[beside] = world.breakages()[0].energy;
+  }
+  CHECK(energy[0] == doctest::Approx(1e-3).epsilon(1e-2));
+  CHECK(energy[1] == doctest::Approx(energy[0]).epsilon(2e-3));
+}
+
+TEST_CASE_TEMPLATE("bond: a body that is moved by whole cells keeps its bond", ShapeT, Disk<double>,
+                   Ball<double>) {
+  using Pair = Chain<ShapeT>;
+  using S = typename Pair::S;
+  using Vector = typename Pair::Vector;
+  Pair pair(2, 0, 1000, Vector(0.1 * Vector::Ones()));
+  auto& world = pair.world;
+  typename S::Matrix vectors = 0.3 * S::Matrix::Identity();
+  world.set_cell(vectors);
+  world.step(1e-4);
+  Pose<S> pose = world.pose(pair.grains[1]);
+  pose.position += vectors.col(0) - 2 * vectors.col(1);
+  world.set_pose(pair.grains[1], pose);
+  world.step(1e-4);
+  vectors.col(1) += vectors.col(0);  // the same lattice, then another one
+  for (const double scale : {1.0, 1.5}) {
+    world.set_cell(typename S::Matrix(scale * vectors));
+    pose.position = 0.1 * Vector::Ones() + 2 * radius * Vector::UnitX() +
+                    scale * (vectors.col(1) + vectors.col(S::dim - 1));
+    world.set_pose(pair.grains[1], pose);
+    for (int k = 0; k < 3; ++k) world.step(1e-4);
+    CHECK(world.bonds().size() == 1);
+    CHECK(world.velocity(pair.grains[1]).norm() < 1e-9);
+  }
+}
