@@ -42,6 +42,7 @@ class Attraction {
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
   using Twist = typename S::Twist;
+  using Impulse = typename ContactsOf<Law, S>::Impulse;
 
   /// Applies the attraction to free velocities. It depends on the gaps as detected, although the overlap correction
   /// changes them afterwards.
@@ -106,19 +107,19 @@ class Attraction {
   void take_from(auto impulses) const {
     for (std::size_t c = 0; c < pulls_.size(); ++c) impulses[c][0] -= pulls_[c];
   }
-  /// The contacts of the step before with their pushes against the attraction that they had then.
+  /// The pushes of the contacts of the step before against the attraction that they had then, in their frames [N s].
   /// @param last_step h of the step before [s]
-  const ContactsOf<Law, S>& pushes_before(const StepContext<S, Law>& context,
-                                          [[maybe_unused]] Scalar last_step) {
+  const List<Impulse>& pushes_before(const StepContext<S, Law>& context,
+                                     [[maybe_unused]] Scalar last_step) {
     if constexpr (BondingLaw<Law, S>) {  // bonds have no memory of impulses
-      return context.previous;
+      return context.previous.impulses;
     } else {
-      pushes_ = context.previous;
-      attractions(context.bodies, replaced_.empty() ? context.materials : replaced_[0], pushes_,
-                  pulls_before_);
-      for (std::size_t c = 0; c < pushes_.size(); ++c)
-        pushes_.impulses[c][0] += last_step * pulls_before_[c];
-      return pushes_;
+      pushes_before_ = context.previous.impulses;
+      attractions(context.bodies, replaced_.empty() ? context.materials : replaced_[0],
+                  context.previous, pulls_before_);
+      for (std::size_t c = 0; c < pushes_before_.size(); ++c)
+        pushes_before_[c][0] += last_step * pulls_before_[c];
+      return pushes_before_;
     }
   }
   /// The materials of the step before, which a user replaces.
@@ -185,7 +186,7 @@ class Attraction {
   std::vector<Materials<Law>> replaced_;  // those of the step before, if they were replaced since
   List<Scalar> pulls_;                    // one per contact: impulse of the attraction [N s]
   List<Scalar> pulls_before_;             // one per contact of the step before: the attraction [N]
-  ContactsOf<Law, S> pushes_;             // see pushes_before()
+  List<Impulse> pushes_before_;           // one per contact of the step before
   List<Twist> changes_;                   // one per body: by change()
   List<Twist> by_impulses_;               // one per body: by find_changes()
   List<typename Sums::Twist> momenta_;    // one per body: by the impulses
@@ -199,8 +200,8 @@ struct NoAttraction {
   void take_from(const auto&) const {}
   void keep(const auto&) const {}
   void end_step() const {}
-  const ContactsOf<Law, S>& pushes_before(const StepContext<S, Law>& context, const auto&) const {
-    return context.previous;
+  const auto& pushes_before(const StepContext<S, Law>& context, const auto&) const {
+    return context.previous.impulses;
   }
   std::span<const typename S::Scalar> pulls() const { return {}; }
 };

@@ -258,7 +258,7 @@ class ImpulseDynamics {
                        problem_.delassus);
       });
     } else {
-      found = start(context, context.previous);
+      found = start(context, context.previous.impulses);
       // The same forces over this step.
       if (last_step_ > 0 && last_step_ != context.step)
         for (Row& push : pushes_.rows()) push *= context.step / last_step_;
@@ -268,10 +268,11 @@ class ImpulseDynamics {
                   std::span<const Twist>(velocities_.before));
     return found;
   }
-  std::size_t start(const Context& context, const ContactsOf<Law, S>& before) {
+  std::size_t start(const Context& context, const List<Row>& before) {
     bridges_.save(context.contacts);
     const auto carry_by = [&](const auto& turn) {
-      return pushes_.carry(before, context.contacts, turn, problem_.delassus, team_);
+      return pushes_.carry(context.previous, before, context.contacts, turn, problem_.delassus,
+                           team_);
     };
     std::size_t found;
     if constexpr (compliant)

@@ -29,13 +29,14 @@ class Pushes {
   /// Fills the rows from the impulses of the step before: the first guess of rigid contacts, the memory of the springs of
   /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact.
   /// @param before contacts of the step before
+  /// @param old    their impulses, or their pushes against the attraction of that step, in their frames [N s]
   /// @param now    in, out: contacts of this step, which get the variants of their laws
   /// @param turn   ImpulseTurn or SpringTurn
   /// @returns how many contacts have a predecessor
-  std::size_t carry(const ContactsOf<Law, S>& before, ContactsOf<Law, S>& now, const auto& turn,
-                    const Operator& op, const Team& team) {
-    const std::size_t found = moreau::carry(before, now, before.impulses, rows_, turn, team);
-    if (found < before.size()) hand_over(before, now, before.impulses, rows_, turn);
+  std::size_t carry(const ContactsOf<Law, S>& before, const List<Row>& old, ContactsOf<Law, S>& now,
+                    const auto& turn, const Operator& op, const Team& team) {
+    const std::size_t found = moreau::carry(before, now, old, rows_, turn, team);
+    if (found < before.size()) hand_over(before, now, old, rows_, turn);
     op.to_rows(rows_, team);
     return found;
   }
