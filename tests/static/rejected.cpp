@@ -189,7 +189,8 @@ struct Law : moreau::Cohesive<> {
   using Cohesive::Cohesive;
   using EITHER(ActsWhereGapsClose, AnotherName) = Law;
 };
-const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law(0.4)));
+const moreau::Simulation<moreau::Ball<>, Law> world(
+    1, moreau::Materials<Law>(1, Law(moreau::SignoriniCoulomb<>(0.4))));
 #endif  // attraction_where_gaps_close
 
 #ifdef cohesive_bridges
