@@ -16,6 +16,7 @@
 //   capsules, rounded shapes   pairs/collide_rounded.hpp, which collides their cores
 //   segments                   pairs/collide_segments.hpp, pairs/collide_segment_polytope.hpp
 //   half-spaces                pairs/collide_half_space.hpp
+//   a Cylinder along its side  pairs/collide_cylinder.hpp
 //   inside of a cylinder       pairs/collide_cylinder_wall.hpp, function collide_each()
 //   mesh walls                 pairs/collide_mesh_wall.hpp, function collide_each()
 //   OneOf                      pairs/collide_one_of.hpp, which collides the shapes that they hold
@@ -31,6 +32,7 @@
 #include "moreau/detect/pairs/collide_ball_polytope.hpp"
 #include "moreau/detect/pairs/collide_balls.hpp"
 #include "moreau/detect/pairs/collide_compound.hpp"
+#include "moreau/detect/pairs/collide_cylinder.hpp"
 #include "moreau/detect/pairs/collide_half_space.hpp"
 #include "moreau/detect/pairs/collide_one_of.hpp"
 #include "moreau/detect/pairs/collide_polytopes.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <numbers>
 #include <random>
 
 #include "moreau/law/signorini_coulomb.hpp"
@@ -21,7 +22,7 @@ using namespace moreau;
 using S = Space<3>;
 using Vector = S::Vector;
 using Rock = Polyhedron<double>;
-using Grain = OneOf<BallIn<S>, CapsuleIn<S>, Rounded<Rock>>;
+using Grain = OneOf<BallIn<S>, CapsuleIn<S>, Rounded<Rock>, Rock>;
 using Law = SignoriniCoulomb<double>;
 using World = Simulation<Grain, Law>;
 
@@ -161,11 +162,25 @@ TEST_CASE("a grain slides along a bar that spins about its axis, and stays at it
       }
 }
 
+/// An arm along the first axis whose surface is 0.02 from it towards y: a capsule, or a box whose edge is there, rounded or not.
+Grain arm_of(int kind) {
+  constexpr double radius = 0.02, rounding = 0.006;
+  if (kind == 0) return CapsuleIn<S>(1, radius);
+  const double half = (kind == 1 ? radius - rounding : radius) / std::numbers::sqrt2;
+  const Rock box = cuboid<Rock>({1, half, half});
+  return kind == 1 ? Grain(Rounded(box, rounding)) : Grain(box);
+}
+/// Turns the edge of an arm_of() a box towards y.
+S::Rotation edge_to_y(int kind) {
+  return kind == 0 ? S::identity() : S::exp({std::numbers::pi / 4, 0, 0});
+}
+
 // In the frame of the arm x'' = Omega^2 x along it, and the arm pushes with m (2 Omega x' - Omega^2 y).
 TEST_CASE("an arm that turns pushes a ball outwards, to second order") {
-  const auto error_of_place = [](double omega, double h) {
+  const auto error_of_place = [](int kind, double omega, double h) {
     Simulation<Grain, Law> world(0.04, Materials<Law>(1, Law(0)));
-    const BodyId arm = world.add_grain(world.add_shape(CapsuleIn<S>(1, 0.02)), {}, 1000);
+    const BodyId arm =
+        world.add_grain(world.add_shape(arm_of(kind)), {Vector::Zero(), edge_to_y(kind)}, 1000);
     world.prescribe_motion(arm);
     world.set_spin(arm, {0, 0, omega});
     const BodyId ball = world.add_grain(world.add_shape(BallIn<S>(0.02)), {{0.1, 0.04, 0}}, 1000);
@@ -181,17 +196,70 @@ TEST_CASE("an arm that turns pushes a ball outwards, to second order") {
       right += m * omega * omega * (0.2 * std::sinh(omega * t) + 0.1 * std::cosh(omega * t) - 0.04);
     }
     CHECK(std::abs(force / right - 1) < 2e-3);
-    const Vector place = world.pose(arm).rotation.inverse() * Vector(world.pose(ball).position);
+    const Vector place = edge_to_y(kind) * Vector(world.pose(arm).rotation.inverse() *
+                                                  Vector(world.pose(ball).position));
     const double t = omega * h * steps;
     return std::abs(place[0] - 0.1 * std::cosh(t) - 0.05 * std::sinh(t)) +
            std::abs(place[1] - 0.04);
   };
-  for (const double omega : {5.0, 20.0}) {
-    const double coarse = error_of_place(omega, 0.02 / omega),
-                 fine = error_of_place(omega, 0.005 / omega);
-    CHECK(coarse < 4e-4);
-    CHECK(fine < coarse / 8);
-  }
+  for (const int kind : {0, 1, 2})
+    for (const double omega : {5.0, 20.0}) {
+      CAPTURE(kind);
+      CAPTURE(omega);
+      const double coarse = error_of_place(kind, omega, 0.02 / omega),
+                   fine = error_of_place(kind, omega, 0.005 / omega);
+      CHECK(coarse < 4e-4);
+      CHECK(fine < coarse / 8);
+    }
+}
+
+// A rod across the arm's edge keeps its direction, and turns in the frame of the arm: the normal turns with both.
+TEST_CASE("a rod that lies across a turning arm is not lifted") {
+  for (const int kind : {0, 1, 2})
+    for (const double omega : {0.5, -2.0}) {
+      CAPTURE(kind);
+      CAPTURE(omega);
+      Simulation<Grain, Law> world(0.04, Materials<Law>(1, Law(0)));
+      world.set_gravity({0, -9.81, 0});
+      const BodyId arm =
+          world.add_grain(world.add_shape(arm_of(kind)), {Vector::Zero(), edge_to_y(kind)}, 1000);
+      world.prescribe_motion(arm);
+      world.set_spin(arm, {0, omega, 0});
+      // Two arms side by side would hold the rod; here its centre lies on the axis.
+      const BodyId rod =
+          world.add_grain(world.add_shape(CapsuleIn<S>(0.2, 0.02)),
+                          {{0, 0.04, 0}, S::exp({0, std::numbers::pi / 2, 0})}, 1000);
+      for (int k = 0; k < 200; ++k) world.step(1e-3);
+      CHECK(std::abs(world.pose(rod).position[1] - 0.04) < 1e-9);
+    }
+}
+
+TEST_CASE("a plank that slides on a turning beam across its edges stays at its height") {
+  for (const bool is_round : {true, false})
+    for (const double omega : {3.0, -10.0}) {
+      CAPTURE(is_round);
+      CAPTURE(omega);
+      Simulation<Grain, Law> world(0.04, Materials<Law>(1, Law(0)));
+      world.set_gravity({0, 0, -9.81});
+      const auto board = [&](double x, double y) {
+        const double r = is_round ? 0.005 : 0;
+        const Rock box = cuboid<Rock>({x - r, y - r, 0.02 - r});
+        return world.add_shape(is_round ? Grain(Rounded(box, r)) : Grain(box));
+      };
+      const BodyId beam = world.add_grain(board(0.5, 0.05), {}, 1000);
+      world.prescribe_motion(beam);
+      world.set_spin(beam, {0, 0, omega});
+      const BodyId plank = world.add_grain(
+          board(0.3, 0.04), {{0, 0, 0.04}, S::exp({0, 0, std::numbers::pi / 2})}, 1000);
+      double least = 1, most = 0;
+      for (int k = 0; k < 150; ++k) {
+        world.step(1e-3);
+        least = std::min(least, world.pose(plank).position[2]);
+        most = std::max(most, world.pose(plank).position[2]);
+      }
+      CHECK(least > 0.04 - 1e-9);
+      CHECK(most < 0.04 + 1e-9);
+    }
 }
 
 }  // namespace

@@ -43,10 +43,14 @@
 // lost half of its energy in 20 turns. On a ball at rest the normal turns with the cores, m = r u_t / d with the radius
 // r of the ball that rolls: one that spins and rolls round on it lost its lean and 0.1 % of its spin per turn.
 //
-// The side of a capsule, and of a Cylinder, is straight: nothing bends along it. It is followed in a frame that turns
-// with the axis e of the side, but not about it, at the rate w - e (e . w): the core of the other body stays at its place
-// in this frame but for its motion s relative to it. If that core is a point, as of a ball or an end, the normal turns
-// about the axis, and the curvature is h/2 (s . (e x n))^2 / d. The edge of a face lies across the axis and has none.
+// The side of a capsule, of a Cylinder and the edge of a polyhedron, rounded or not, are straight: nothing bends along them.
+// A side is followed in a frame that turns with its direction e, but not about it, at the rate t = w - e (e . w): the core of
+// the other body stays at its place in this frame but for its motion s relative to it. About the axis the normal turns at a rate
+// m: if the other core is a point, as of a ball, an end or a vertex, d m = (s . (e x n)) e x n with the distance d of the cores,
+// and the curvature is h/2 d |m|^2. If it is a straight side along f that turns at w', the normal stays across f:
+// f . m = f . ((w' - t) x n), and the curvature is h m . s - h/2 d |m|^2, of which that of a point is a case. The edge of a
+// face that lies across a side has m = 0. Whether a polyhedron is touched at a vertex, an edge or a face is told by the
+// vertices that lie farthest out: the points of two faces can lie at crossings of their edges.
 //
 // A bond is fixed to a point of each body, and has its own chords, of free bodies as well (bond_list.hpp).
 #pragma once
@@ -124,6 +128,7 @@ class ChordVelocities {
   bool has_any() const { return !marks_.empty(); }
 
  private:
+  static constexpr bool has_sides = has_straight_sides<moreau::PartOf<ShapeT>>;
   /// Why the contacts of a body have chords: it is a ball that is prescribed not to turn, of which only the contacts
   /// with balls have them; it turns by prescription, or is a cylinder.
   enum Mark : unsigned char { unmarked, ball_at_rest, turns };
@@ -207,118 +212,141 @@ class ChordVelocities {
     if (radius < 0 && assembly.bodies().rotates(body)) return lever;
     return (std::max(Scalar(0), radius) + gap / 2) * outward;
   }
-  /// Unit vector along the straight side of a body that touches, world axes; zero of others.
-  static Vector side_of(const Assembly<ShapeT>& assembly, std::uint32_t body,
-                        [[maybe_unused]] std::uint32_t part, bool is_edge, const Vector& outward) {
+  /// How a body is touched; its side in world axes.
+  [[gnu::cold, gnu::noinline]] static CoreFeature<Vector> feature_of(
+      const Assembly<ShapeT>& assembly, std::uint32_t body, [[maybe_unused]] std::uint32_t part,
+      bool is_edge, const Vector& outward) {
+    CoreFeature<Vector> feature;
     const Bodies<S>& bodies = assembly.bodies();
-    if (!(bodies.grain_mass[body] > 0)) return Vector::Zero();
+    if (!(bodies.grain_mass[body] > 0)) return feature;
     const ShapeT& shape = assembly.shape_of(bodies.id[body]);
-    const auto along = [&](const auto& held, const auto& rotation) {
-      return Vector(rotation * straight_side(held, is_edge, Vector(rotation.inverse() * outward)));
-    };
-    if constexpr (CompoundShape<ShapeT>)
-      return along(shape.parts()[part].shape,
-                   bodies.pose[body].rotation * shape.parts()[part].pose.rotation);
-    else
-      return along(shape, bodies.pose[body].rotation);
+    if constexpr (CompoundShape<ShapeT>) {
+      const auto rotation = bodies.pose[body].rotation * shape.parts()[part].pose.rotation;
+      feature =
+          core_feature(shape.parts()[part].shape, is_edge, Vector(rotation.inverse() * outward));
+      feature.side = rotation * feature.side;
+    } else {
+      const auto& rotation = bodies.pose[body].rotation;
+      feature = core_feature(shape, is_edge, Vector(rotation.inverse() * outward));
+      feature.side = rotation * feature.side;
+    }
+    return feature;
   }
-  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed, below: the wall.
+  /// The two bodies of a contact. One of them, the wall, is a half-space, a mesh wall or a grain whose rotation is
+  /// prescribed.
+  struct Touch {
+    CoreFeature<Vector> feature_a, feature_b;
+    Vector core_a, core_b;          // from the core of the body to the contact point [m]
+    Scalar rounding_a, rounding_b;  // see rounding_of()
+    bool wall_is_a;
+    bool has_face, owner_is_a;  // whether a face makes the contact, and whose
+    bool side_is_a;             // whose side is followed: that of the wall, if both have one
+    Scalar rounding_of_grain() const { return wall_is_a ? rounding_b : rounding_a; }
+    Scalar rounding_of_wall() const { return wall_is_a ? rounding_a : rounding_b; }
+    bool has_side() const { return !feature_a.side.isZero(0) || !feature_b.side.isZero(0); }
+    bool has_two_sides() const { return !feature_a.side.isZero(0) && !feature_b.side.isZero(0); }
+  };
+  MOREAU_INLINED static Touch touch_of(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
+                                       const ContactKey& key) {
+    using Kind = FeatureKey::Kind;
+    const std::uint32_t a = contact.a, b = contact.b;
+    const Vector normal = contact.frame.col(0);
+    const auto kind = key.feature.kind();
+    Touch touch;
+    if constexpr (has_sides) {
+      touch.feature_a = feature_of(assembly, a, key.part_a,
+                                   kind == Kind::edge_edge || kind == Kind::edge_vertex, normal);
+      touch.feature_b = feature_of(assembly, b, key.part_b,
+                                   kind == Kind::edge_edge || kind == Kind::vertex_edge, -normal);
+    }
+    touch.core_a = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
+    touch.core_b = from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap);
+    touch.rounding_a = rounding_of(assembly, a, key.part_a, normal);
+    touch.rounding_b = rounding_of(assembly, b, key.part_b, -normal);
+    touch.wall_is_a = !assembly.bodies().rotates(a);
+    const auto face_of_b = vertex_on_face(S{});
+    const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
+    const bool face_a = touch.feature_a.is_known ? touch.feature_a.is_face : kind == face_of_a,
+               face_b = touch.feature_b.is_known ? touch.feature_b.is_face : kind == face_of_b;
+    // A contact without a face has that of the wall, unless the features that touch are known.
+    const Scalar of_wall = touch.rounding_of_wall();
+    const bool is_grain = assembly.bodies().grain_mass[touch.wall_is_a ? a : b] > 0;
+    touch.has_face = face_a || face_b || of_wall < 0 || !is_grain ||
+                     (of_wall == 0 && !(touch.rounding_of_grain() > 0) && !touch.has_two_sides());
+    touch.owner_is_a =
+        face_a != face_b ? face_a : kind == face_of_a || (kind != face_of_b && touch.wall_is_a);
+    touch.side_is_a =
+        touch.wall_is_a ? !touch.feature_a.side.isZero(0) : touch.feature_b.side.isZero(0);
+    return touch;
+  }
+  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed. The normal turns at the rate tilt x n + swerve.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
                                                         const Contact<S>& contact,
                                                         const ContactKey& key, Scalar step) {
     const Bodies<S>& bodies = assembly.bodies();
-    const std::uint32_t a = contact.a, b = contact.b;
     const Vector normal = contact.frame.col(0);
-    const Vector core_a = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
-    const Vector core_b = from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap);
-    const auto face_of_b = vertex_on_face(S{});
-    const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
-    const auto kind = key.feature.kind();
-    // A contact without a face has that of the body that turns by prescription, if that is not round.
-    const bool turning_is_a = !bodies.rotates(a);
-    const Scalar of_side_a = rounding_of(assembly, a, key.part_a, normal),
-                 of_side_b = rounding_of(assembly, b, key.part_b, -normal);
-    const bool is_round = (turning_is_a ? of_side_a : of_side_b) > 0;
-    const bool has_face = kind == face_of_a || kind == face_of_b || !is_round;
-    const bool owner_is_a = kind == face_of_a || (kind != face_of_b && turning_is_a);
-    if constexpr (has_straight_sides<moreau::PartOf<ShapeT>>) {
-      using Kind = FeatureKey::Kind;
-      const bool edge_a = kind == Kind::edge_edge || kind == Kind::edge_vertex,
-                 edge_b = kind == Kind::edge_edge || kind == Kind::vertex_edge;
-      const Vector side_a = side_of(assembly, a, key.part_a, edge_a, normal),
-                   side_b = side_of(assembly, b, key.part_b, edge_b, -normal);
-      const bool side_is_a = turning_is_a ? !side_a.isZero(0) : side_b.isZero(0);
-      const Vector& side = side_is_a ? side_a : side_b;
-      if (!has_face && !side.isZero(0)) {
-        const bool is_point = side_is_a ? !edge_b && of_side_b > 0 && side_b.isZero(0)
-                                        : !edge_a && of_side_a > 0 && side_a.isZero(0);
-        return along_side(bodies, contact,
-                          {side, core_a, core_b, side_is_a, turning_is_a, is_point,
-                           turning_is_a ? of_side_b : of_side_a},
-                          step);
-      }
+    const Touch touch = touch_of(assembly, contact, key);
+    const bool face = touch.has_face;
+    const Vector lever_a =
+                     contact.lever_a - (face && touch.owner_is_a ? touch.core_b : touch.core_a),
+                 lever_b =
+                     contact.lever_b - (face && !touch.owner_is_a ? touch.core_a : touch.core_b);
+    const auto &twist_a = bodies.velocity[contact.a], &twist_b = bodies.velocity[contact.b];
+    const Angular of_a = angular<S>(twist_a), of_b = angular<S>(twist_b);
+    // From the core of a to that of b.
+    const Vector apart = face ? Vector(Vector::Zero()) : Vector(touch.core_a - touch.core_b);
+    const Scalar distance = apart.norm();
+    const Vector slip = relative_velocity_at<S>(twist_a, lever_a, twist_b, lever_b);
+    Angular tilt = Angular::Zero();
+    Vector swerve = Vector::Zero();
+    bool is_of_wall = true;  // the face or the side
+    if (face) {
+      is_of_wall = touch.owner_is_a == touch.wall_is_a;
+      tilt = touch.owner_is_a ? of_a : of_b;
+    } else if (has_sides && touch.has_side()) {
+      is_of_wall = touch.side_is_a == touch.wall_is_a;
+      follow_side(touch, normal, of_a, of_b, slip, apart, tilt, swerve);
+    } else if (distance > 0) {
+      swerve = along(slip, -normal.dot(slip), normal) / distance;
     }
-    const Vector lever_a = contact.lever_a - (has_face && owner_is_a ? core_b : core_a),
-                 lever_b = contact.lever_b - (has_face && !owner_is_a ? core_a : core_b);
-    const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
-    const Vector slip =
-        relative_velocity_at<S>(bodies.velocity[a], lever_a, bodies.velocity[b], lever_b);
-    const Vector sliding = slip - normal.dot(slip) * normal;
-    const Scalar apart = has_face ? 0 : (core_a - core_b).norm();
-    Scalar bend = 0;
-    if (has_face)
-      bend = step * S::spin(owner_is_a ? of_a : of_b, normal).dot(slip);
-    else if (apart > 0)
-      bend = step / 2 * sliding.squaredNorm() / apart;
+    // In the frame that turns at tilt.
+    const Vector turned = S::spin(tilt, normal), slide = slip - S::spin(tilt, apart);
+    const Scalar bend = step * (turned + swerve).dot(slide) -
+                        step / 2 * distance * swerve.squaredNorm() -
+                        normal.dot(chord_excess<S>(tilt, apart, step));
     Vector sum = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
-    const Scalar rounding = turning_is_a ? of_side_b : of_side_a;
-    if (rounding > 0 && (has_face ? owner_is_a == turning_is_a : apart > 0)) {
-      const Scalar sign = turning_is_a ? -1 : 1;
-      const Angular &of_wall = turning_is_a ? of_a : of_b, &of_grain = turning_is_a ? of_b : of_a;
-      const Vector swing = has_face ? S::spin(of_wall, turning_is_a ? core_b : core_a)
-                                    : Vector(sign * rounding / apart * sliding);
-      sum += sign * rolling(normal, of_grain, of_wall, swing, Vector(sign * slip), step);
+    const Scalar rounding = touch.rounding_of_grain();
+    if (rounding > 0 && is_of_wall && (face || distance > 0)) {
+      const Scalar sign = touch.wall_is_a ? -1 : 1;
+      const Angular &of_wall = touch.wall_is_a ? of_a : of_b,
+                    &of_grain = touch.wall_is_a ? of_b : of_a;
+      sum += sign * rolling(normal, of_grain, of_wall, Vector(sign * rounding * (turned + swerve)),
+                            Vector(sign * slip), step);
     }
     return sum + bend * normal;
   }
-  /// A contact at the straight side of a body.
-  struct Side {
-    Vector along;             // unit
-    Vector core_a, core_b;    // from the core of the body to the contact point [m]
-    bool is_a, turning_is_a;  // whether the side is that of a, whether the wall is a
-    bool is_point;            // whether the core of the other body is a point
-    Scalar rounding;          // of the grain [m]
-  };
-  [[gnu::cold, gnu::noinline]] static Vector along_side(const Bodies<S>& bodies,
-                                                        const Contact<S>& contact, const Side& side,
-                                                        Scalar step) {
-    const Vector normal = contact.frame.col(0);
-    const auto &twist_a = bodies.velocity[contact.a], &twist_b = bodies.velocity[contact.b];
-    const Angular of_a = angular<S>(twist_a), of_b = angular<S>(twist_b);
-    const Vector lever_a = contact.lever_a - side.core_a, lever_b = contact.lever_b - side.core_b;
-    const Vector apart = side.core_a - side.core_b;  // from the core of a to that of b
-    const Angular& of_owner = side.is_a ? of_a : of_b;
-    const Angular tilt = of_owner - side.along * side.along.dot(of_owner);
-    // The core of the other body relative to the frame of the side.
-    const Vector slip =
-        relative_velocity_at<S>(twist_a, lever_a, twist_b, lever_b) - S::spin(tilt, apart);
-    const Vector own = chord_excess<S>(of_b, lever_b, step) - chord_excess<S>(of_a, lever_a, step);
-    const Vector aside = S::spin(side.along, normal);
-    const Scalar distance = apart.norm();
-    const Scalar rate = side.is_point && distance > 0 ? slip.dot(aside) / distance : Scalar(0);
-    const Scalar along_normal = normal.dot(own - chord_excess<S>(tilt, apart, step)) +
-                                step * S::spin(tilt, normal).dot(slip) +
-                                step / 2 * rate * rate * distance;
-    Vector sum = own;
-    if (side.rounding > 0 && side.is_a == side.turning_is_a) {
-      const Scalar sign = side.turning_is_a ? -1 : 1;
-      const Angular &of_wall = side.turning_is_a ? of_a : of_b,
-                    &of_grain = side.turning_is_a ? of_b : of_a;
-      const Vector swing = sign * side.rounding * (S::spin(tilt, normal) + rate * aside);
-      const Vector material = slip - S::spin(Angular(of_wall - tilt), apart);
-      sum += sign * rolling(normal, of_grain, of_wall, swing, Vector(sign * material), step);
+  /// The turn of the normal at a straight side: with the side, but not about it, and about it with the core of the other
+  /// body, if that is a point or a straight side.
+  /// @param slip  between the cores [m/s]
+  /// @param apart from the core of a to that of b [m]
+  MOREAU_INLINED static void follow_side(const Touch& touch, const Vector& normal,
+                                         const Angular& of_a, const Angular& of_b,
+                                         const Vector& slip, const Vector& apart, Angular& tilt,
+                                         Vector& swerve) {
+    if constexpr (has_sides) {
+      const bool is_a = touch.side_is_a;
+      const Vector &side = is_a ? touch.feature_a.side : touch.feature_b.side,
+                   &other = is_a ? touch.feature_b.side : touch.feature_a.side;
+      const Angular &of_side = is_a ? of_a : of_b, &of_other = is_a ? of_b : of_a;
+      tilt = of_side - side * side.dot(of_side);
+      const Vector aside = S::spin(side, normal);
+      const Scalar distance = apart.norm(), across = aside.dot(other);
+      constexpr Scalar parallel = Scalar(0.05);
+      if (std::abs(across) > parallel)
+        swerve = S::spin(Angular(of_other - tilt), normal).dot(other) / across * aside;
+      else if (distance > 0 && other.isZero(0) && (is_a ? touch.rounding_b : touch.rounding_a) >= 0)
+        swerve = (slip - S::spin(tilt, apart)).dot(aside) / distance * aside;
     }
-    return sum + (along_normal - normal.dot(sum)) * normal;
   }
   /// What the relative velocity of a rounded grain and a wall changes by along the wall until the end of the step
   /// beside the chords: the place of the contact moves with the grain, and the lever from the core turns with the
@@ -326,8 +354,9 @@ class ChordVelocities {
   /// @param swing rate of change of the lever from the core to the contact [m/s]
   /// @param slip  velocity of the wall at the core minus that of the core [m/s]
   /// @returns wall minus grain [m/s]
-  static Vector rolling(const Vector& normal, const Angular& of_grain, const Angular& of_wall,
-                        const Vector& swing, const Vector& slip, Scalar step) {
+  MOREAU_INLINED static Vector rolling(const Vector& normal, const Angular& of_grain,
+                                       const Angular& of_wall, const Vector& swing,
+                                       const Vector& slip, Scalar step) {
     const Vector change = S::spin(of_wall, Vector(swing - slip)) - S::spin(of_grain, swing);
     return step / 2 * along(change, -normal.dot(change), normal);
   }
