@@ -74,3 +74,37 @@ TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedr
                                      count);
   }
 }
+
+// Their contacts bore a load in the step before, and bear none now.
+TEST_CASE_TEMPLATE(
+    "the upper part of a stack that loses a block falls freely, and steps are solved", ShapeT,
+    Polyhedron<>, Polygon<>, Polygon<float>) {
+  using Scalar = typename moreau::SpaceOf<ShapeT>::Scalar;
+  constexpr double h = 1e-3;
+  constexpr int settle_steps = rounds(100), falls = 5;
+  for (const int blocks : {3, 4, 6})
+    for (const double friction : {0.0, 0.5})
+      for (const double ratio : {1.0, 100.0})
+        for (const int removed : {0, 1}) {
+          CAPTURE(blocks);
+          CAPTURE(friction);
+          CAPTURE(ratio);
+          CAPTURE(removed);
+          auto structure = masonry::stack<ShapeT>(blocks, friction, 0, ratio);
+          auto& simulation = structure.simulation;
+          simulation.set_solver(moreau::ColouredGaussSeidel());
+          std::vector<moreau::BodyId> upper;
+          for (int k = removed + 1; k < blocks; ++k)
+            upper.push_back(simulation.grain(std::size_t(k)));
+          for (int k = 0; k < settle_steps; ++k) simulation.step(Scalar(h));
+          simulation.remove_grain(simulation.grain(std::size_t(removed)));
+          for (int k = 1; k <= falls; ++k) {
+            CHECK(simulation.step(Scalar(h)).solve.converged);
+            for (const moreau::BodyId block : upper) {
+              const double fall = masonry::gravity * h * k;
+              CHECK(std::abs(double(simulation.velocity(block)[structure.up]) + fall) <
+                    100 * moreau::ColouredOptions().velocity_tolerance * masonry::gravity * h);
+            }
+          }
+        }
+}

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/rolling_resistance.hpp"
@@ -280,4 +282,60 @@ TEST_CASE("bridge: a periodic cell must have room for its reach") {
   CHECK_THROWS_WITH(world.set_materials(Materials<Wet>(1, wide)),
                     doctest::Contains("Simulation::set_materials: length of the cell"));
   CHECK(world.materials().laws()[0].reach() < 2e-4);
+}
+
+TEST_CASE_TEMPLATE("Cohesive: bodies attract each other up to the range, also beyond the margin", X,
+                   Disk<double>, Ball<float>, Ball<double>) {
+  using S = SpaceOf<X>;
+  using T = typename S::Scalar;
+  using Law = Cohesive<SignoriniCoulomb<T>>;
+  using Vector = typename S::Vector;
+  constexpr double step = 1e-6, apart = 0.5, margin = 0.02 * 2 * radius, density = 1000;
+  constexpr int count = 2000;
+  const double mass = density * std::numbers::pi * radius * radius *
+                      (S::dim == 3 ? 4 * radius / 3 : 1) / 2;  // reduced
+  const double adhesion = 0.2 * mass * apart * apart / 2 / (10 * margin);
+  for (const double share : {0.1, 1.0, 10.0}) {  // of the margin, 0.02 of the grain size
+    const double range = share * margin;
+    Simulation<X, Law> world{T(2 * radius),
+                             Law(SignoriniCoulomb<T>(T(0.5)), T(adhesion), T(range))};
+    const ShapeId shape = world.add_shape(X(T(radius)));
+    const auto add = [&](double side) {
+      const Vector aside = T(side * radius) * Vector::UnitX();
+      const BodyId grain = world.add_grain(shape, {aside, S::identity()}, T(density));
+      world.set_velocity(grain, Vector(T(side * apart / 2) * Vector::UnitX()));
+      return grain;
+    };
+    const BodyId left = add(-1), right = add(1);
+    for (int k = 0; k < count; ++k) world.step(T(step));
+    const double speed = double(world.velocity(right)[0] - world.velocity(left)[0]);
+    const double work = adhesion * range;
+    CAPTURE(share);
+    // The attraction acts for whole steps: the work is that of a range which is off by the way of a step at most.
+    const double off = adhesion * apart * step / (mass * speed);
+    CHECK(std::abs(speed - std::sqrt(apart * apart - 2 * work / mass)) <=
+          off + count * double(std::numeric_limits<T>::epsilon()) * apart);
+  }
+}
+
+TEST_CASE_TEMPLATE(
+    "bridge: bodies that are placed in touch have one, whatever the rounding of the gap", X,
+    Ball<double>, Ball<float>, Disk<float>) {
+  using S = SpaceOf<X>;
+  using T = typename S::Scalar;
+  using Law = Bridged<CapillaryBridge<T>, SignoriniCoulomb<T>>;
+  using Vector = typename S::Vector;
+  int apart = 0;
+  for (int k = 0; k < 40; ++k) {
+    Simulation<X, Law> world{T(2 * radius),
+                             Law(bridge<CapillaryBridge<T>>(), SignoriniCoulomb<T>(T(0.5)))};
+    const ShapeId shape = world.add_shape(X(T(radius)));
+    Vector x = T(0.0037 * k - 0.05) * Vector::UnitX();
+    world.add_grain(shape, {x, S::identity()}, T(1000));
+    x += T(2 * radius) * Vector::UnitX();
+    world.add_grain(shape, {x, S::identity()}, T(1000));
+    world.step(T(h));
+    apart += world.contacts().size() != 1 || !Law::is_bridged(world.contacts().variants[0]);
+  }
+  CHECK(apart == 0);
 }

@@ -43,9 +43,8 @@ class Cohesive : public Law {
  public:
   /// @param law      the law without adhesion
   /// @param adhesion gamma >= 0, per contact point [N]
-  /// @param range    largest gap with adhesion, > 0 [m]. At a gap above the margin (Tolerances::margin)
-  ///                 there is no contact and so no adhesion. The default is infinite: every contact
-  ///                 attracts
+  /// @param range    largest gap with adhesion, > 0 [m]. Contacts are detected up to it, if it is above the margin
+  ///                 (Tolerances::margin). The default is infinite: every contact attracts, up to the margin
   /// @throws std::invalid_argument outside these ranges
   explicit Cohesive(const Law& law = Law{}, Scalar adhesion = 0,
                     Scalar range = std::numeric_limits<Scalar>::infinity())

@@ -51,6 +51,9 @@ struct ContactProblem {
   Operator delassus;           ///< W and b; carries u under the impulses applied so far
   std::vector<Law> laws;       ///< the table of laws
   List<std::uint32_t> law_of;  ///< one per contact: its entry in the table
+  /// Rounding of the velocities of the bodies, one per body, from which b is computed [m/s]; empty: not known. Errors
+  /// below it are none: bodies that touch and fall together have only rounding in b.
+  List<Scalar> rounding;
   /// Those of the contacts that are bonds.
   [[no_unique_address]] std::conditional_t<BondingLaw<Law, Space>, detail::ProblemBonds<Scalar>,
                                            detail::NoProblemBonds>

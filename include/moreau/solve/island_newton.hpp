@@ -114,15 +114,18 @@ class IslandNewton {
 
   /// Moves to impulses.
   /// @param impulses [N s]
+  /// @param least_motion errors are relative to this velocity where the impulses change velocities by less [m/s]
   /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
   ///          factorization
-  double start(std::span<const Impulse> impulses) {
-    step_.start(impulses);
+  double start(std::span<const Impulse> impulses, double least_motion = 0) {
+    step_.start(impulses, least_motion);
     slides_ = can_turn && step_.sliding_points() > std::size_t(S::dim);
     return step_.defect();
   }
 
+  /// The largest change of a velocity of a body by the impulses of start() [m/s].
+  double motion() const { return step_.motion(); }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
   double slip() const { return step_.slip(); }

@@ -272,6 +272,7 @@ class ContactDetector {
   std::vector<Grain> late_;           // further ones, which have the indices of removed grains
   std::vector<Grain> spare_;          // of removed grains; what they have allocated is used again
   List<std::uint32_t> number_after_;  // of each grain, in remove_grains()
+  List<std::uint32_t> number_at_;     // number of the grain of each body, in insert_late()
   std::vector<Wall<HalfSpace<S>>> walls_;
   std::vector<Wall<CylinderWall<S>>> cylinders_;
   detail::MeshWalls<ShapeT> meshes_;

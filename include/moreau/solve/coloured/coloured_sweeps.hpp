@@ -67,6 +67,7 @@ class ColouredSweeps {
       const double scale = mean_diagonal(problem.delassus, shared_);
       auto sums = kernel_.residual(scale, team);
       if constexpr (BondingLaw<Law, S>) sums.relate_to_loads(problem, impulses, scale);
+      sums.forgive_rounding(problem);
       if (shared_) sums.add_up(*shared_);
       sums.write(report);
     } else {

@@ -63,9 +63,12 @@ class IslandSolver {
       }
       // Without impulses the defect is 0 where no contact closes, and otherwise 1.
       Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted};
+      one.least_motion = rounding_of(problem, contacts) / tolerance_;
       if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
+        one.least_motion = std::max(
+            one.least_motion, std::max(least_share, rounding / tolerance_) * newton_.motion());
         if (!attempt_evenly(problem, one, impulses, 0, one.defect)) attempt(one, impulses);
       }
       small_.push_back(one);
@@ -76,6 +79,12 @@ class IslandSolver {
   bool all_meet_tolerance() const {
     return !others_ && std::all_of(small_.begin(), small_.end(),
                                    [&](const Small& one) { return meets_tolerance(one); });
+  }
+  /// Whether all contacts lie in islands that count as solved in the report.
+  bool all_solved() const {
+    return !others_ && std::all_of(small_.begin(), small_.end(), [&](const Small& one) {
+      return one.error <= accepted * tolerance_;
+    });
   }
   /// Saves the impulses, which sweeps change.
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
@@ -96,7 +105,7 @@ class IslandSolver {
       find_cost(one);
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
-      const double defect = newton_.start(impulses);
+      const double defect = newton_.start(impulses, one.least_motion);
       if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect)) continue;
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && converged) continue;
@@ -111,7 +120,7 @@ class IslandSolver {
         continue;
       }
       if (one.error <= near * tolerance_) continue;
-      newton_.start(impulses);
+      newton_.start(impulses, one.least_motion);
       solve_directly(one, impulses, late_epsilon, most_steps, defect);
     }
   }
@@ -158,6 +167,9 @@ class IslandSolver {
     double error;         // relative [-]
     double start_error;   // the same of the impulses from which the direct method started, at least
     bool failed = false;  // attempt_evenly()
+    // Errors are relative to this velocity where impulses change velocities by less [m/s]: a structure that bore the
+    // load of the warm start, and now falls freely, is solved where its error is small against that load.
+    double least_motion = 0;
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
@@ -175,6 +187,11 @@ class IslandSolver {
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
   static constexpr double even_enough = 1e-6;
+  /// Of the motion by the warm start: a share, and errors of rounding.
+  static constexpr double least_share = 0.01,
+                          rounding =
+                              64 *
+                              double(std::numeric_limits<typename Operator::Scalar>::epsilon());
   /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
   static constexpr std::size_t most_new = 10, most_colliding = 3;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
@@ -184,6 +201,15 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
 
+  /// The largest rounding of the velocity of a body of some contacts [m/s].
+  static double rounding_of(const Problem& problem, std::span<const std::uint32_t> contacts) {
+    double largest = 0;
+    if (problem.rounding.empty()) return largest;
+    for (const std::uint32_t c : contacts)
+      for (const std::uint32_t body : problem.delassus.bodies(c))
+        largest = std::max(largest, double(problem.rounding[body]));
+    return largest;
+  }
   bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
   /// average.
@@ -229,7 +255,7 @@ class IslandSolver {
         newton_.solve_evenly(late_epsilon, {tolerance_, least_epsilon, most_steps});
     one.failed = !newton_.is_better();
     if (one.failed) {
-      newton_.start(impulses);
+      newton_.start(impulses, one.least_motion);
       return false;
     }
     keep(one, impulses, error, defect);

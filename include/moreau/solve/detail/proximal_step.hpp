@@ -51,7 +51,9 @@ class ProximalStep {
   }
 
   /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
-  void start(std::span<const Impulse> impulses) {
+  /// @param least_motion errors are relative to this velocity where the impulses change velocities by less [m/s]
+  void start(std::span<const Impulse> impulses, double least_motion) {
+    least_motion_ = least_motion;
     common_ = 0;
     has_limits_ = false;
     set_centre(impulses);
@@ -93,6 +95,8 @@ class ProximalStep {
     const double defect = respond(1, y_).rest, motion = scale(y_);
     return motion > 0 ? defect / motion : defect > 0 ? 1 : 0;
   }
+  /// The largest change of a velocity of a body by the impulses of start() [m/s].
+  double motion() const { return scale(y_); }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
   double slip() const {
@@ -235,9 +239,9 @@ class ProximalStep {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
   }
-  /// Largest velocity of a body in the motion of the centre and in another one [m/s].
+  /// Largest velocity of a body in the motion of the centre and in another one, at least that of start() [m/s].
   double scale(std::span<const Coordinates> other) const {
-    double largest = 0;
+    double largest = least_motion_;
     for (std::size_t i = 0; i < y_.size(); ++i)
       largest = std::max(largest, std::max(y_[i].norm(), other[i].norm()) * points_.speed(i));
     return largest;
@@ -379,6 +383,7 @@ class ProximalStep {
   List<double> lift_;                   // sigma [m/s]
   bool has_limits_ = false;             // of friction, in place of lifts
   double stopped_ = 1;                  // see stopped()
+  double least_motion_ = 0;             // see start()
   double closed_ = 0;                   // contacts that are not faster apart are closed [m/s]
   List<double> limit_;                  // mu r_n [N s]
   List<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,15 +14,25 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/world/detail/gap_rounding.hpp"
 
 namespace moreau::detail {
 
-/// The largest gap at which a law attracts beyond the margin [m]; 0 of a law without bridges.
+/// A law whose attraction ends at a gap range() [m], which can be infinite: then it ends at the margin.
+template <class Law, class S>
+concept AttractsInRange = AttractiveLaw<Law, S> && requires(const Law law) {
+  { law.range() } -> std::same_as<typename S::Scalar>;
+};
+
+/// The largest gap at which a law attracts, also beyond the margin [m]; 0 of a law whose attraction ends at the margin.
 template <class S, class Law>
 typename S::Scalar reach_of(const Materials<Law>& materials) {
   typename S::Scalar reach = 0;
-  if constexpr (BridgingLaw<Law, S>)
-    for (const Law& law : materials.laws()) reach = std::max(reach, law.reach());
+  for (const Law& law : materials.laws())
+    if constexpr (BridgingLaw<Law, S>)
+      reach = std::max(reach, law.reach());
+    else if constexpr (AttractsInRange<Law, S>)
+      if (std::isfinite(law.range())) reach = std::max(reach, law.range());
   return reach;
 }
 
@@ -31,20 +43,24 @@ class Bridges {
   using Scalar = typename S::Scalar;
 
   /// Forms and breaks bridges after detection, and erases the contacts of pairs without a bridge whose gap exceeds the
-  /// margin. A bridge forms where a gap is closed, or the contact pushed in the step before.
+  /// margin. A bridge forms where a gap is closed to rounding, or the contact pushed in the step before.
   /// @param before contacts of the step before, with their impulses
   /// @param now    contacts of this step, with their laws; out: their variants say whether there is a bridge
   /// @returns how many pairs are left
-  std::size_t update(const Materials<Law>& materials, const ContactsOf<Law, S>& before,
-                     ContactsOf<Law, S>& now, Scalar margin) {
+  std::size_t update(const Materials<Law>& materials, const Bodies<S>& bodies,
+                     const ContactsOf<Law, S>& before, ContactsOf<Law, S>& now, Scalar margin) {
     gone_.assign(now.size(), 0);
     std::size_t old = 0, pairs = 0;
     for (std::size_t first = 0, last; first < now.size(); first = last) {
       last = end_of_pair(now, first);
       bool bridged = had_bridge(before, old, now.keys[first]);
       Scalar least = now.points[first].gap;
-      for (std::size_t c = first; c < last; ++c) least = std::min(least, now.points[c].gap);
-      bridged = (bridged || least <= 0) && least <= materials.laws()[now.points[first].law].reach();
+      for (std::size_t c = first; c < last; ++c) {
+        const Scalar gap = now.points[c].gap;
+        least = std::min(least, gap);
+        bridged = bridged || gap <= gap_rounding<S>(bodies, now.points[c]);
+      }
+      bridged = bridged && least <= materials.laws()[now.points[first].law].reach();
       for (std::size_t c = first; c < last; ++c) {
         now.variants[c] = static_cast<std::uint32_t>(Law::with_bridge(0, bridged));
         gone_[c] = !bridged && now.points[c].gap > margin;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,19 +41,28 @@ void ContactDetector<ShapeT, BroadPhaseT>::add_grain(BodyId body, const ShapeT& 
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::insert_late() {
-  const auto before = [](const Grain& l, const Grain& r) { return l.body < r.body; };
-  std::sort(late_.begin(), late_.end(), before);
-  number_after_.clear();
-  std::size_t passed = 0;
-  for (const Grain& grain : grains_) {
-    while (passed < late_.size() && late_[passed].body < grain.body) ++passed;
-    number_after_.push_back(static_cast<std::uint32_t>(number_after_.size() + passed));
+  const auto grain_of = [this](std::size_t k) -> Grain& {
+    return k < grains_.size() ? grains_[k] : late_[k - grains_.size()];
+  };
+  constexpr std::uint32_t none = decltype(near_)::none;
+  const std::size_t count = grains_.size() + late_.size();
+  std::size_t bodies = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    bodies = std::max(bodies, grain_of(k).body.index() + std::size_t{1});
+  number_at_.assign(bodies, none);
+  for (std::size_t k = 0; k < count; ++k)
+    number_at_[grain_of(k).body.index()] = static_cast<std::uint32_t>(k);
+  number_after_.resize(grains_.size());
+  std::vector<Grain> all;
+  all.reserve(count);
+  for (const std::uint32_t k : number_at_) {
+    if (k == none) continue;
+    if (k < grains_.size()) number_after_[k] = static_cast<std::uint32_t>(all.size());
+    all.push_back(std::move(grain_of(k)));
   }
   near_.renumber(number_after_);
-  const auto first = static_cast<std::ptrdiff_t>(grains_.size());
-  std::move(late_.begin(), late_.end(), std::back_inserter(grains_));
+  grains_.swap(all);
   late_.clear();
-  std::inplace_merge(grains_.begin(), grains_.begin() + first, grains_.end(), before);
 }
 
 template <class ShapeT, class BroadPhaseT>

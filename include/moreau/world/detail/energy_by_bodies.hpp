@@ -67,8 +67,8 @@ typename S::Twist sum_of_velocities(const typename S::Twist& free,
 /// @param op   operator with the velocities of the impulses
 /// @param free v_f of every body [m/s, rad/s]
 template <class S>
-BodiesGain gain_of_bodies(const Bodies<S>& bodies, const auto& op,
-                          std::span<const typename S::Twist> free) {
+MOREAU_INLINED inline BodiesGain gain_of_bodies(const Bodies<S>& bodies, const auto& op,
+                                                std::span<const typename S::Twist> free) {
   bool any = false;  // may gain
   for (std::size_t i = 0; i < free.size(); ++i) {
     const typename S::Twist change = op.velocity_change(i);

@@ -53,6 +53,7 @@
 #include "moreau/world/detail/contact_laws.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/contact_springs.hpp"
+#include "moreau/world/detail/gap_rounding.hpp"
 #include "moreau/world/detail/integrate.hpp"
 #include "moreau/world/detail/pushes.hpp"
 #include "moreau/world/detail/soften_bonds.hpp"
@@ -228,20 +229,25 @@ class ImpulseDynamics {
     }
     problem_.delassus.assemble(context.contacts.points, velocities_.roots, velocities_.free,
                                springs_.compliances(context), team_);
+    find_rounding();
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 
+  /// Sets the rounding of the velocities without impulses.
+  void find_rounding() {
+    constexpr Scalar several = 8;
+    problem_.rounding.resize(velocities_.free.size());
+    for (std::size_t i = 0; i < velocities_.free.size(); ++i)
+      problem_.rounding[i] =
+          several * std::numeric_limits<Scalar>::epsilon() *
+          velocities_.free[i].template head<S::dim>().template lpNorm<Eigen::Infinity>();
+  }
   /// Whether an open gap is no larger than the rounding of the positions. In single precision a step would close it at a
   /// velocity that is not small against those of bodies at rest, and the points of a face would not act alike.
   static bool is_rounding([[maybe_unused]] const Context& context,
                           [[maybe_unused]] const Contact<S>& contact, [[maybe_unused]] Scalar gap) {
     if constexpr (std::is_same_v<Scalar, float>) {
-      if (!(gap > 0)) return false;
-      const auto length = [](const Vector& x) { return x.template lpNorm<1>(); };
-      const auto& pose = context.bodies.pose;
-      return gap <= 2 * std::numeric_limits<Scalar>::epsilon() *
-                        (length(pose[contact.a].position) + length(pose[contact.b].position) +
-                         length(contact.lever_a) + length(contact.lever_b));
+      return gap > 0 && gap <= gap_rounding<S>(context.bodies, contact);
     } else {
       return false;
     }

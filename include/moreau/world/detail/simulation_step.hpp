@@ -110,7 +110,8 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   });
   [[maybe_unused]] std::size_t pairs = 0;
   if constexpr (BridgingLaw<Law, S>)
-    pairs = bridges_.update(materials_, contacts_, found, tolerances_.lengths(grain_size_).margin);
+    pairs = bridges_.update(materials_, bodies(), contacts_, found,
+                            tolerances_.lengths(grain_size_).margin);
   std::swap(contacts_, found);  // last: if a function above throws, the contacts have not changed
   report.ms_collide = clock.lap();
   report.candidate_pairs = detector_.pair_count();

@@ -8,6 +8,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/relative_velocity.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -81,8 +82,8 @@ struct StepVelocities {
   /// operator [m/s].
   /// @param earlier relative velocity before the step, contact frame [m/s]
   /// @param jumps   of the cell, if it deforms
-  Row forced(const Context& context, std::size_t c, const Vector& earlier,
-             const CellJumps<S>& jumps, const Operator& op) const {
+  MOREAU_INLINED Row forced(const Context& context, std::size_t c, const Vector& earlier,
+                            const CellJumps<S>& jumps, const Operator& op) const {
     const Contact<S>& contact = context.contacts.points[c];
     const std::uint32_t a = contact.a, b = contact.b;
     Vector change = relative_velocity(contact, free[a], free[b]);
