@@ -345,7 +345,9 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
   control.stress(0, 1) = control.stress(1, 0) = 2;
   one.control_cell(control);
   control.stress(1, 0) = 3;
-  refuses([&] { one.control_cell(control); }, "Simulation::control_cell: mass = (0, 1, 0, 1)");
+  refuses([&] { one.control_cell(control); },
+          "Simulation::control_cell: mass = (0, 1, 0, 1) must be > 0 for components that follow a "
+          "stress");
   control = {};
   control.rate = -20 * unit;
   small.control_cell(control);

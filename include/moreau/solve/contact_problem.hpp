@@ -54,6 +54,8 @@ struct ContactProblem {
   /// Rounding of the velocities of the bodies, one per body, from which b is computed [m/s]; empty: not known. Errors
   /// below it are none: bodies that touch and fall together have only rounding in b.
   List<Scalar> rounding;
+  /// Velocities that the loads of the step give the bodies, one per body, g h under gravity alone [m/s]; empty: not known.
+  List<Scalar> load;
   /// Those of the contacts that are bonds.
   [[no_unique_address]] std::conditional_t<BondingLaw<Law, Space>, detail::ProblemBonds<Scalar>,
                                            detail::NoProblemBonds>

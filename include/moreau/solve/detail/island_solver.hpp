@@ -63,7 +63,8 @@ class IslandSolver {
       }
       // Without impulses the defect is 0 where no contact closes, and otherwise 1.
       Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted};
-      one.least_motion = rounding_of(problem, contacts) / tolerance_;
+      one.least_motion = std::max(largest_of(problem, contacts, problem.rounding) / tolerance_,
+                                  least_share * largest_of(problem, contacts, problem.load));
       if (!is_new) {
         take(problem, k);
         one.defect = newton_.start(impulses);
@@ -201,13 +202,14 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
 
-  /// The largest rounding of the velocity of a body of some contacts [m/s].
-  static double rounding_of(const Problem& problem, std::span<const std::uint32_t> contacts) {
+  /// The largest of some velocities of the bodies of an island [m/s].
+  static double largest_of(const Problem& problem, std::span<const std::uint32_t> contacts,
+                           const List<typename Problem::Scalar>& velocities) {
     double largest = 0;
-    if (problem.rounding.empty()) return largest;
+    if (velocities.empty()) return largest;
     for (const std::uint32_t c : contacts)
       for (const std::uint32_t body : problem.delassus.bodies(c))
-        largest = std::max(largest, double(problem.rounding[body]));
+        largest = std::max(largest, double(velocities[body]));
     return largest;
   }
   bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }

@@ -126,9 +126,10 @@ inline constexpr bool has_straight_sides<Rounded<Core>> = has_straight_sides<Cor
 template <class T>
 inline constexpr bool has_straight_sides<Rounded<Polyhedron<T>>> = true;
 template <class... Shapes>
-inline constexpr bool has_straight_sides<OneOf<Shapes...>> = sizeof...(Shapes) > 1 &&
-                                                             (SpaceOf<OneOf<Shapes...>>::dim == 3 ||
-                                                              (has_straight_sides<Shapes> || ...));
+inline constexpr bool has_straight_sides<OneOf<Shapes...>> =
+    sizeof...(Shapes) > 1 && (std::same_as<typename SpaceOf<OneOf<Shapes...>>::Vector,
+                                           typename SpaceOf<OneOf<Shapes...>>::Angular> ||
+                              (has_straight_sides<Shapes> || ...));
 
 /// Whether a grain is a ball.
 template <class ShapeT>

@@ -229,18 +229,22 @@ class ImpulseDynamics {
     }
     problem_.delassus.assemble(context.contacts.points, velocities_.roots, velocities_.free,
                                springs_.compliances(context), team_);
-    find_rounding();
+    find_scales(context);
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 
-  /// Sets the rounding of the velocities without impulses.
-  void find_rounding() {
+  /// Sets the scales of errors: the rounding of the velocities without impulses, and what the loads add to them.
+  void find_scales(const Context& context) {
     constexpr Scalar several = 8;
-    problem_.rounding.resize(velocities_.free.size());
-    for (std::size_t i = 0; i < velocities_.free.size(); ++i)
-      problem_.rounding[i] =
-          several * std::numeric_limits<Scalar>::epsilon() *
-          velocities_.free[i].template head<S::dim>().template lpNorm<Eigen::Infinity>();
+    const auto largest = [](const Vector& v) { return v.template lpNorm<Eigen::Infinity>(); };
+    const auto& free = velocities_.free;
+    problem_.rounding.resize(free.size());
+    problem_.load.resize(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const Vector v = free[i].template head<S::dim>();
+      problem_.rounding[i] = several * std::numeric_limits<Scalar>::epsilon() * largest(v);
+      problem_.load[i] = largest(v - context.bodies.velocity[i].template head<S::dim>());
+    }
   }
   /// Whether an open gap is no larger than the rounding of the positions. In single precision a step would close it at a
   /// velocity that is not small against those of bodies at rest, and the points of a face would not act alike.
