@@ -264,14 +264,17 @@ class Simulation : public BodyControl<ShapeT> {
     return dynamics_.bonds().breakages();
   }
 
-  // What the law does not allow ends in one sentence.
+  /// Refused in one sentence: under a law without bonds nothing can be bonded.
   template <class L = Law>
   requires(!BondingLaw<L, S>) std::size_t bond_touching(const auto&...)
   const { return detail::refuse_bonds<L, S>(); }
+  /// Refused in the same way.
   template <class L = Law>
   requires(!BondingLaw<L, S>) void bond(const auto&...) const { detail::refuse_bonds<L, S>(); }
+  /// Refused in one sentence: a cell that deforms needs a law for impulses.
   template <class L = Law>
   requires(!SetValuedLaw<L, S>) void set_cell(const auto&...) const { detail::refuse_cell<L, S>(); }
+  /// Refused in the same way.
   template <class L = Law>
   requires(!SetValuedLaw<L, S>) void control_cell(const auto&...) const {
     detail::refuse_cell<L, S>();
