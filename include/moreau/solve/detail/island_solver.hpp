@@ -168,8 +168,8 @@ class IslandSolver {
     double error;         // relative [-]
     double start_error;   // the same of the impulses from which the direct method started, at least
     bool failed = false;  // attempt_evenly()
-    // Errors are relative to this velocity where impulses change velocities by less [m/s]: a structure that bore the
-    // load of the warm start, and now falls freely, is solved where its error is small against that load.
+    // Errors are relative to this velocity where impulses change velocities by less [m/s]: a structure that lost its
+    // support, and now falls freely, is solved where its error is small against its load.
     double least_motion = 0;
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
@@ -188,7 +188,8 @@ class IslandSolver {
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
   static constexpr double even_enough = 1e-6;
-  /// Of the motion by the warm start: a share, and errors of rounding.
+  /// Of the velocities that the warm start or the loads of the step give: the share that errors are relative to at least;
+  /// of those by the warm start, errors of rounding.
   static constexpr double least_share = 0.01,
                           rounding =
                               64 *

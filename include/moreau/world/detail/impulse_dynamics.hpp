@@ -229,23 +229,10 @@ class ImpulseDynamics {
     }
     problem_.delassus.assemble(context.contacts.points, velocities_.roots, velocities_.free,
                                springs_.compliances(context), team_);
-    find_scales(context);
+    velocities_.find_scales(context.bodies, problem_);
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 
-  /// Sets the scales of errors: the rounding of the velocities without impulses, and what the loads add to them.
-  void find_scales(const Context& context) {
-    constexpr Scalar several = 8;
-    const auto largest = [](const Vector& v) { return v.template lpNorm<Eigen::Infinity>(); };
-    const auto& free = velocities_.free;
-    problem_.rounding.resize(free.size());
-    problem_.load.resize(free.size());
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      const Vector v = free[i].template head<S::dim>();
-      problem_.rounding[i] = several * std::numeric_limits<Scalar>::epsilon() * largest(v);
-      problem_.load[i] = largest(v - context.bodies.velocity[i].template head<S::dim>());
-    }
-  }
   /// Whether an open gap is no larger than the rounding of the positions. In single precision a step would close it at a
   /// velocity that is not small against those of bodies at rest, and the points of a face would not act alike.
   static bool is_rounding([[maybe_unused]] const Context& context,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "moreau/contact/contact.hpp"
@@ -63,6 +64,19 @@ struct StepVelocities {
     if (context.deforms())
       CellJumps<S>::turn_velocities(bodies, context.cell->rate(), context.step, of_free, team);
     if constexpr (AttractiveLaw<Law, S>) unattracted = free;
+  }
+  /// Sets the scales of errors of a problem: the rounding of `free`, and what the loads of the step add to the velocities.
+  void find_scales(const Bodies<S>& bodies, auto& problem) const {
+    using Scalar = typename S::Scalar;
+    constexpr Scalar several = 8;
+    const auto largest = [](const Vector& v) { return v.template lpNorm<Eigen::Infinity>(); };
+    problem.rounding.resize(free.size());
+    problem.load.resize(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const Vector v = free[i].template head<S::dim>();
+      problem.rounding[i] = several * std::numeric_limits<Scalar>::epsilon() * largest(v);
+      problem.load[i] = largest(v - bodies.velocity[i].template head<S::dim>());
+    }
   }
   /// Stage 9: V = V_free and what the impulses have changed. Throws if a velocity is not finite.
   /// @param op        with the velocities of the impulses
