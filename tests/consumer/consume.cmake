@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs a program as a project of its own, outside this one's source tree.
 #   WAY       find_package | build_tree | eigen_5 | add_subdirectory | fetch_content | pkg_config | plain
-#             | debian_package | project | instances
+#             | debian_package | project | instances | mistakes
 #   LIBRARY   this project's source    BUILD     its build folder
 #   COMPILER  the C++ compiler         GENERATOR of build files
 #   EIGEN     its include folder
 # One way builds two units with all of moreau.hpp; for the others it is enough that
 # the headers are found, and Eigen's. eigen_5 has a package file as Eigen 5 has it, which refuses a
 # request for version 3.4, over the headers that are there. project is the template of examples/project, which
-# compiles the usual simulations once, and instances does the same with pkg-config and make. The subdirectory meets globals with the names that
+# compiles the usual simulations once, and instances does the same with pkg-config and make. mistakes configures wrong
+# projects, which CMake must refuse with the reason. The subdirectory meets globals with the names that
 # the library has for its own.
 cmake_minimum_required(VERSION 3.21)
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror")
@@ -38,6 +39,18 @@ function(run_with_pkg_config share)
   run_compiled("$(pkg-config --cflags moreau | sed 's/-I\\([^ ]*eigen3\\)/-isystem \\1/')")
 endfunction()
 
+# A project with these lines is refused, or its target is left out, with this reason; CMake breaks the lines of messages.
+function(expect reason lines)
+  file(WRITE ${WORK}/project/CMakeLists.txt "cmake_minimum_required(VERSION 3.21)\n${lines}\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -S project -B build --fresh -Dmoreau_DIR=${BUILD} -DCMAKE_CXX_COMPILER=${COMPILER}
+                  WORKING_DIRECTORY ${WORK} OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  string(FIND "${output}" "${reason}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "${WAY}: not said: ${reason}\n${lines}\n${output}")
+  endif()
+endfunction()
+
 file(MAKE_DIRECTORY ${WORK}/project)
 set(units hello.cpp)
 if(WAY STREQUAL "add_subdirectory")
@@ -55,7 +68,17 @@ if(WAY MATCHES "find_package|pkg_config|eigen_5|instances")
 endif()
 
 set(options -DCMAKE_BUILD_TYPE=Debug)
-if(WAY STREQUAL "plain")
+if(WAY STREQUAL "mistakes")
+  set(begin "project(mine LANGUAGES NONE)\n")
+  expect("moreau needs C++: project" "${begin}find_package(moreau 0.2 REQUIRED)")
+  set(begin "project(mine LANGUAGES CXX)\n")
+  expect("there is no component Picture, but instances" "${begin}find_package(moreau 0.2 REQUIRED COMPONENTS Picture)")
+  expect("space_coulomb,plane_rolling is none of"
+         "${begin}set(MOREAU_INSTANCES space_coulomb,plane_rolling)\nfind_package(moreau 0.2 REQUIRED)")
+  set(subdirectory "add_subdirectory(${LIBRARY} moreau)\n")
+  expect("moreau is there already" "${begin}find_package(moreau 0.2 REQUIRED)\n${subdirectory}")
+  expect("moreau::picture is left out: it needs find_package(PNG) before moreau" "${begin}${subdirectory}")
+elseif(WAY STREQUAL "plain")
   run_compiled("-I ${LIBRARY}/include -isystem ${EIGEN}")
 elseif(WAY STREQUAL "pkg_config")
   run_with_pkg_config(${WORK}/prefix/share)
