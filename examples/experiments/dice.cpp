@@ -10,11 +10,14 @@
 //   damped    the same, but the drag resists the spin as well, as creeping flow does of a ball of equal volume: the couple
 //             over the spin is 4/3 r^2 times the force over the velocity;
 //   walled    poured, but between four side walls in place of the periodic axes, with the same friction;
+//   slow      sediment, but held at 0.03 m/s, which lifts a die by a two-hundredth of its size;
+//   rounded   sediment of dice whose edges are rounded with a tenth of their size, at equal volume;
 //   dense     the floor shakes the poured ones along the vertical, with 25 Hz and an acceleration of 4 g at first, which
 //             falls linearly to 0.
 // The loosest packing was published for dice that were fluidized, the densest one for dice that were vibrated.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
-// between dice is not published: it is varied. Damped and walled change one thing each: controls, with the first friction.
+// between dice is not published: it is varied. Damped, walled, slow and rounded change one thing each: controls, with the
+// first friction.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,11 +33,14 @@
 #include <vector>
 
 #include "moreau/io/snapshot.hpp"
+#include "moreau/measure/clip.hpp"
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/sample/random_deposition.hpp"
 #include "moreau/shape/circumradius.hpp"
+#include "moreau/shape/rounded.hpp"
 
 #include "session.hpp"
+#include "worlds.hpp"
 
 namespace experiments {
 
@@ -43,8 +49,10 @@ namespace dice_parts {
 using S = moreau::Space<3>;
 using Vector = S::Vector;
 using Shape = moreau::Polyhedron<double>;
+using Rounded = moreau::Rounded<Shape>;
 using Law = moreau::SignoriniCoulomb<double>;
 
+template <class Shape>
 using World = moreau::Simulation<Shape, Law>;
 
 constexpr double size = 0.01, density = 1000;  // edge of a cube of equal volume [m], [kg/m^3]
@@ -84,19 +92,42 @@ Shape die(int faces) {
   return unit.scaled(size / std::cbrt(unit.mass_properties(1).mass));
 }
 
-double fraction(const World& world, double length) {
+/// The same die with edges and corners of the radius of a tenth of its size, scaled to the same volume.
+Rounded rounded(const Shape& die) {
+  const Rounded unit(die, 0.1 * size);
+  return unit.scaled(size / std::cbrt(unit.volume()));
+}
+
+/// @param die sharp. Of rounded dice, which lie with the same centres and axes, the volumes that the slab cuts are those
+///            of sharp dice of equal volume.
+template <class Shape>
+double fraction(const World<Shape>& world, const dice_parts::Shape& die, double length) {
   double top = 0;
   for (const moreau::BodyId grain : world.grains())
     top = std::max(top, world.pose(grain).position[2]);
-  double bottom = world.pose(world.walls()[0]).position[2];
-  return moreau::solid_fraction(world, moreau::Aabb<S>(Vector(0, 0, bottom + 2.5 * size),
-                                                       Vector(length, length, top - 2.5 * size)));
+  const double bottom = world.pose(world.walls()[0]).position[2];
+  const moreau::Aabb<S> slab(Vector(0, 0, bottom + 2.5 * size),
+                             Vector(length, length, top - 2.5 * size));
+  if constexpr (moreau::Polytope<Shape>) {
+    return moreau::solid_fraction(world, slab);
+  } else {
+    // Across the periodic axes the slab is the whole cell: no images are needed.
+    moreau::Aabb<S> layer = slab;
+    layer.lower.head<2>().setConstant(-1e3);
+    layer.upper.head<2>().setConstant(1e3);
+    moreau::ClipWorkspace<S> workspace;
+    double solid = 0;
+    for (const moreau::BodyId grain : world.grains())
+      solid += moreau::clipped_volume(die, world.pose(grain), layer, workspace);
+    return solid / (length * length * (slab.upper[2] - slab.lower[2]));
+  }
 }
 
-constexpr double rest = 0.3, terminal = 0.1;  // [s], of the sediment [m/s]
+constexpr double rest = 0.3, terminal = 0.1,
+                 slow_terminal = 0.03;  // [s], of the sediment [m/s]
 
 /// How the dice arrive.
-enum class Arrival { poured, sediment, damped, walled };
+enum class Arrival { poured, sediment, damped, walled, slow, rounded };
 
 struct Sample {
   int faces;
@@ -108,14 +139,15 @@ struct Sample {
 };
 
 /// @param walled bounded by walls in place of the periodic axes; the walls are added after the floor
-World empty_world(const Sample& sample, bool walled) {
+template <class Shape>
+World<Shape> empty_world(const Sample& sample, bool walled) {
   moreau::ColouredOptions options;
   options.tolerance = tolerance;
   options.max_sweeps = 500;
   moreau::Tolerances tolerances;
   tolerances.margin = 0.1;
-  World world(size, moreau::Materials<Law>(1, Law(sample.friction)),
-              moreau::ColouredGaussSeidel(options), tolerances);
+  World<Shape> world(size, moreau::Materials<Law>(1, Law(sample.friction)),
+                     moreau::ColouredGaussSeidel(options), tolerances);
   if (!walled)
     for (const int axis : {0, 1}) world.set_periodic(axis, 0, sample.length());
   world.set_gravity({0, 0, -gravity});
@@ -127,7 +159,7 @@ struct Drag {
   double force = 0, couple = 0;
 };
 
-void resist(World& world, const Drag& drag) {
+void resist(auto& world, const Drag& drag) {
   for (const moreau::BodyId grain : world.grains()) {
     if (drag.force > 0) world.set_force(grain, -drag.force * world.velocity(grain));
     if (drag.couple > 0) world.set_torque(grain, -drag.couple * world.spin(grain));
@@ -139,7 +171,8 @@ void resist(World& world, const Drag& drag) {
 /// @param h        step [s]
 /// @param velocity of the floor upwards at a time [m/s]
 /// @returns solid fraction and share of steps not solved; then, for each die, position and rotation
-Numbers advance_dice(Run& run, World world, const Sample& sample, double duration, double h,
+template <class Shape>
+Numbers advance_dice(Run& run, World<Shape> world, const Sample& sample, double duration, double h,
                      const Drag& drag, const auto& build, const auto& velocity) {
   Numbers sums{0, 0};  // steps, those not solved
   if (run.is_started())
@@ -157,7 +190,7 @@ Numbers advance_dice(Run& run, World world, const Sample& sample, double duratio
       throw Paused();
     }
   }
-  Numbers values{fraction(world, sample.length()), sums[1] / sums[0]};
+  Numbers values{fraction(world, die(sample.faces), sample.length()), sums[1] / sums[0]};
   for (const moreau::BodyId grain : world.grains()) {
     const moreau::Pose<S>& pose = world.pose(grain);
     for (const double x : pose.position) values.push_back(x);
@@ -166,15 +199,15 @@ Numbers advance_dice(Run& run, World world, const Sample& sample, double duratio
   return values;
 }
 
-Numbers loose(Run& run, const Sample& sample, Arrival arrival) {
-  const Shape shape = die(sample.faces);
+template <class Shape>
+Numbers loose(Run& run, const Sample& sample, Arrival arrival, const Shape& shape) {
   std::mt19937_64 random(sample.seed);
   const std::vector<double> radii(sample.count, moreau::circumradius(shape));
   const auto poses = moreau::random_deposition<S>(radii, sample.length(), random);
   double top = 0;
   for (const moreau::Pose<S>& pose : poses) top = std::max(top, pose.position[2]);
   const bool walled = arrival == Arrival::walled;
-  const auto build = [&](World& world) {
+  const auto build = [&](World<Shape>& world) {
     const auto id = world.add_shape(shape);
     for (const moreau::Pose<S>& pose : poses) world.add_grain(id, pose, density);
     world.add_wall(Vector::UnitZ(), Vector::Zero());
@@ -184,20 +217,21 @@ Numbers loose(Run& run, const Sample& sample, Arrival arrival) {
       world.add_wall(-Vector::Unit(axis), sample.length() * Vector::Unit(axis));
     }
   };
-  const bool slowly = arrival == Arrival::sediment || arrival == Arrival::damped;
+  const bool slowly = arrival != Arrival::poured && !walled;
+  const double velocity = arrival == Arrival::slow ? slow_terminal : terminal;
   // The time in which the highest die falls to the floor, and rest.
-  const double fall = slowly ? top / terminal : std::sqrt(2 * top / gravity);
+  const double fall = slowly ? top / velocity : std::sqrt(2 * top / gravity);
   Drag drag;
-  if (slowly) drag.force = density * size * size * size * gravity / terminal;
+  if (slowly) drag.force = density * size * size * size * gravity / velocity;
   const double r = size * std::cbrt(3 / (4 * std::numbers::pi));
   if (arrival == Arrival::damped) drag.couple = 4.0 / 3 * r * r * drag.force;
-  return advance_dice(run, empty_world(sample, walled), sample, fall + rest,
+  return advance_dice(run, empty_world<Shape>(sample, walled), sample, fall + rest,
                       slowly ? slow_step : step, drag, build, [](double) { return 0.0; });
 }
 
 /// @param start what loose() has returned
 Numbers dense(Run& run, const Sample& sample, const Numbers& start) {
-  const auto build = [&](World& world) {
+  const auto build = [&](World<Shape>& world) {
     const auto id = world.add_shape(die(sample.faces));
     for (std::size_t k = 2; k + 6 < start.size(); k += 7) {
       moreau::Pose<S> pose;
@@ -212,8 +246,8 @@ Numbers dense(Run& run, const Sample& sample, const Numbers& start) {
     const double share = std::max(0.0, 1 - time / sample.shaking);
     return share * 4 * gravity / rate * std::cos(rate * time);
   };
-  Numbers values = advance_dice(run, empty_world(sample, false), sample, sample.shaking + rest,
-                                step, {}, build, shaken);
+  Numbers values = advance_dice(run, empty_world<Shape>(sample, false), sample,
+                                sample.shaking + rest, step, {}, build, shaken);
   values.resize(2);
   return values;
 }
@@ -240,6 +274,8 @@ const std::vector<Kind>& all_kinds() {  // the short runs first
       {"sediment", "loosest, as sediment", Arrival::sediment, slow_step, true, false},
       {"damped", "sediment, spin resisted", Arrival::damped, slow_step, false, true},
       {"walled", "poured between walls", Arrival::walled, step, false, true},
+      {"rounded", "sediment, edges rounded", Arrival::rounded, slow_step, false, true},
+      {"slow", "sediment at 0.03 m/s", Arrival::slow, slow_step, false, true},
       {"dense", "densest", std::nullopt, step, true, false}};
   return kinds;
 }
@@ -286,11 +322,11 @@ void report(Session& session, const std::vector<Die>& kinds, const Numbers& fric
       }
       rows.push_back({double(one.faces), friction, mean("sediment").value, one.loose,
                       mean("dense").value, one.dense, mean("poured").value, mean("damped").value,
-                      mean("walled").value});
+                      mean("walled").value, mean("slow").value, mean("rounded").value});
     }
   session.curve("dice",
                 {"faces", "friction", "sediment", "published loose", "dense", "published dense",
-                 "poured", "damped", "walled"},
+                 "poured", "damped", "walled", "slow", "rounded"},
                 rows);
 }
 
@@ -320,8 +356,11 @@ void dice(Session& session) {
                                  std::to_string(seed) + ' ';
         if (!session.wants(name + kind.key)) continue;
         const auto arrive = [&](const char* key, Arrival arrival) {
-          return session.once(name + key,
-                              [&](Run& piece) { return loose(piece, sample, arrival); });
+          return session.once(name + key, [&](Run& piece) {
+            const Shape sharp = die(sample.faces);
+            return arrival == Arrival::rounded ? loose(piece, sample, arrival, rounded(sharp))
+                                               : loose(piece, sample, arrival, sharp);
+          });
         };
         Result result;
         if (kind.arrival) {

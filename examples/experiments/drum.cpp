@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The rotating drum of Dosta et al. 2024: 30,000 balls of material M1, r = 1 mm, above 8,000 of M2, r = 2 mm,
 // from the published initial state. Observable: number of M1 with x < 0 and z < 0.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "moreau/sample/spatial_order.hpp"
@@ -38,15 +40,22 @@ std::vector<Start> initial_state() {
   return all;
 }
 
+/// Order in which the balls are added. It decides on the order of the sweeps and with it on the rounding.
+enum class Order { spatial, reversed, file };
+
 /// @param depth half the depth of the drum [m]; if it is less than the published one, the balls of that slice
-void build(World& world, double depth) {
+void build(World& world, double depth, Order order) {
   const auto small = world.add_shape(moreau::Ball<double>(0.001));
   const auto large = world.add_shape(moreau::Ball<double>(0.002));
   // The file has the balls in a random order: a step takes less time if neighbours follow one another.
   const std::vector<Start> balls = initial_state();
   std::vector<Vector> positions;
   for (const Start& ball : balls) positions.push_back(ball.position);
-  for (const std::size_t k : moreau::spatial_order<moreau::Space<3>>(positions)) {
+  std::vector<std::size_t> numbers(balls.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t(0));
+  if (order != Order::file) numbers = moreau::spatial_order<moreau::Space<3>>(positions);
+  if (order == Order::reversed) std::reverse(numbers.begin(), numbers.end());
+  for (const std::size_t k : numbers) {
     const Start& ball = balls[k];
     const double r = ball.small ? 0.001 : 0.002;
     if (std::abs(ball.position[1]) > depth - r && depth < half_depth) continue;
@@ -149,14 +158,18 @@ struct Case {
   double until;       ///< [s]
   double depth;       ///< half the depth of the drum [m]
   const char* curve;  ///< name of the file
+  Order order = Order::spatial;
 };
 
 void run(Session& session, const Case& c, double interval, const std::vector<Numbers>& published) {
   const bool whole = c.depth >= half_depth;
   const std::string part =
       whole ? "whole drum" : "slice of " + std::to_string(int(std::lround(2000 * c.depth))) + " mm";
-  if (!session.wants(part)) return;
-  const std::string key = c.numerics.text() + (whole ? "" : ' ' + part);
+  const std::string key = c.numerics.text() + (whole ? "" : ' ' + part) +
+                          (c.order == Order::spatial    ? ""
+                           : c.order == Order::reversed ? ", reversed order"
+                                                        : ", order of the file");
+  if (!session.wants(part) && !session.wants(key)) return;
   Row row;
   row.law = "SignoriniCoulomb";
   row.step = c.numerics.step;
@@ -176,7 +189,7 @@ void run(Session& session, const Case& c, double interval, const std::vector<Num
       World world = world_of(0.002, c.numerics, session.options().threads);
       const Sums sums = advance(
           run, world, c.numerics, c.until, interval, counts,
-          [&](World& empty) { build(empty, c.depth); }, in_quadrant);
+          [&](World& empty) { build(empty, c.depth, c.order); }, in_quadrant);
       balls = world.grain_count();
       Numbers values = counts;
       sums.append_to(values);
@@ -212,16 +225,23 @@ void drum(Session& session) {
   using namespace drum_parts;
   const std::vector<Numbers> published = read_data("drum_zone2_M1.csv");
   constexpr double interval = 0.1, slice = 0.004;
-  // The step is 1 ms, in which the drum turns by 0.2 mm; a thin slice with half the step is the control of it.
+  // The step is 1 ms, in which the drum turns by 0.2 mm. Controls of the step and of the rounding: a thin slice.
   const Numerics numerics{1e-3, 3e-3, 0.15, 500, 8};
-  Numerics half = numerics;
+  Numerics half = numerics, quarter = numerics;
   half.step /= 2;
+  quarter.step /= 4;
   if (session.quick()) {
     run(session, {numerics, 0.2, slice, "drum_slice"}, interval, published);
     return;
   }
-  run(session, {numerics, 1, slice, "drum_slice_1ms"}, interval, published);
-  run(session, {half, 1, slice, "drum_slice_half_ms"}, interval, published);
+  run(session, {numerics, 5, slice, "drum_slice_1ms"}, interval, published);
+  run(session, {half, 5, slice, "drum_slice_half_ms"}, interval, published);
+  run(session, {numerics, 5, slice, "drum_slice_1ms_reversed", Order::reversed}, interval,
+      published);
+  run(session, {numerics, 5, slice, "drum_slice_1ms_file", Order::file}, interval, published);
+  run(session, {half, 5, slice, "drum_slice_half_ms_reversed", Order::reversed}, interval,
+      published);
+  run(session, {quarter, 5, slice, "drum_slice_quarter_ms"}, interval, published);
   run(session, {numerics, 5, half_depth, "drum"}, interval, published);
 }
 

@@ -2,6 +2,7 @@
 // The box and the beds of the impact of Dosta et al. 2024.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,20 +49,15 @@ inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64
   add_box(world, box);
 }
 
-/// A settled bed, which the experiments share: positions, then the root of the mean square of the velocities [m/s] and
-/// the milliseconds per step.
-inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
-                           std::uint64_t seed) {
-  const double duration = session.quick() ? 0.01 : settling;
-  const std::string key = "/bed of " + std::to_string(count) + " balls, seed " +
-                          std::to_string(seed) + ", width " + std::to_string(box.width);
+/// A bed that has settled, which the experiments share: positions, then the root of the mean square of the velocities
+/// [m/s] and the milliseconds per step.
+/// @param add (world): adds balls and box
+inline Numbers settle(Session& session, const std::string& key, double duration, const auto& add) {
   const Result result = session.once(key, [&](Run& run) {
     const Numerics numerics{2e-4, 1e-2, 0.2};
     World world = world_of(diameter, numerics, session.options().threads);
     Numbers log;
-    const Sums sums = advance(
-        run, world, numerics, duration, duration, log,
-        [&](World& empty) { add_bed(empty, box, count, seed); }, mean_speed);
+    const Sums sums = advance(run, world, numerics, duration, duration, log, add, mean_speed);
     Numbers state;
     for (const moreau::BodyId grain : world.grains())
       for (const double x : world.pose(grain).position) state.push_back(x);
@@ -70,6 +66,38 @@ inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
     return state;
   });
   return result.values;
+}
+
+/// The bed of settle(), made by random deposition.
+inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
+                           std::uint64_t seed) {
+  const std::string key = "/bed of " + std::to_string(count) + " balls, seed " +
+                          std::to_string(seed) + ", width " + std::to_string(box.width);
+  return settle(session, key, session.quick() ? 0.01 : settling,
+                [&](World& empty) { add_bed(empty, box, count, seed); });
+}
+
+/// The bed of settle(), made of up to four copies of a settled bed, one above the other: the bed itself, mirrored along
+/// the length, along the width, along both. It settles again for 0.1 s, because surface and bottom do not fit. A deep
+/// bed that is deposited at random falls by its height, which takes as many steps as the impact.
+inline Numbers stacked_bed(Session& session, std::size_t copies, std::size_t count,
+                           std::uint64_t seed) {
+  const Numbers bed = settled_bed(session, {}, count, seed);
+  const std::string key = "/bed of " + std::to_string(copies * count) + " balls, " +
+                          std::to_string(copies) + " copies, seed " + std::to_string(seed);
+  return settle(session, key, 0.1, [&](World& empty) {
+    double top = floor_height;
+    for (std::size_t k = 0; k + 3 < bed.size(); k += 3) top = std::max(top, bed[k + 2]);
+    const double height = top + diameter / 2 - floor_height;
+    const auto shape = empty.add_shape(moreau::Ball<double>(diameter / 2));
+    for (std::size_t copy = 0; copy < copies; ++copy)
+      for (std::size_t k = 0; k + 3 < bed.size(); k += 3)
+        empty.add_grain(shape,
+                        {Vector((copy % 2 == 0 ? 1 : -1) * bed[k], (copy < 2 ? 1 : -1) * bed[k + 1],
+                                bed[k + 2] + height * double(copy))},
+                        density_m1, m1);
+    add_box(empty, {});
+  });
 }
 
 /// The balls of a settled bed and the steel ball above it, which falls.

@@ -8,6 +8,7 @@
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/shape/rounded.hpp"
 
 namespace experiments {
 
@@ -38,6 +39,11 @@ using Rolling = moreau::RollingResistance<double>;
 #else
 #define EXPERIMENTS_ROLLING extern template
 #endif
+#ifdef EXPERIMENTS_INSTANTIATE_ROUNDED
+#define EXPERIMENTS_ROUNDED template
+#else
+#define EXPERIMENTS_ROUNDED extern template
+#endif
 
 namespace moreau {
 
@@ -52,5 +58,8 @@ EXPERIMENTS_CAPSULES StepReport Simulation<Capsule<double>, experiments::Springs
 EXPERIMENTS_ROLLING class detail::ImpulseDynamics<Space<3>, experiments::Rolling, MoreauJean,
                                                   ColouredGaussSeidel>;
 EXPERIMENTS_ROLLING StepReport Simulation<Ball<double>, experiments::Rolling>::step(double);
+EXPERIMENTS_ROUNDED class ContactDetector<Rounded<Polyhedron<double>>, CellGrid<Space<3>>>;
+EXPERIMENTS_ROUNDED StepReport
+Simulation<Rounded<Polyhedron<double>>, experiments::Rigid>::step(double);
 
 }  // namespace moreau

@@ -17,15 +17,17 @@ if (has("drum")) {
        file("drum") using 1:2 skip 1 with points pt 6 lc rgb own title "moreau, rigid"
 }
 do for [n in "25 50 100"] {
-  name = sprintf("impact_%sk", n)
-  if (has(name)) {
+  name = sprintf("impact_%sk", n); part = name . "_so_far"
+  if (has(name) || has(part)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step 50 µs, tolerance 1e-3", n)
-    set xlabel "t [ms]"; set ylabel "z [mm]"
-    count = int(system(sprintf("head -1 '%s' | tr ',' '\n' | wc -l", file(name))))
+    set xlabel "t [ms]"; set ylabel "z [mm]"; set key top center
+    count = has(name) ? int(system(sprintf("head -1 '%s' | tr ',' '\n' | wc -l", file(name)))) : 2
     plot data . "/" . name . ".csv" using 1:(1000 * $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \
          data . "/" . name . ".csv" using 1:(1000 * $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
-         for [k = 3:count] file(name) using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : "")
+         for [k = 3:count] (has(name) ? file(name) : "/dev/null") using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : ""), \
+         (has(part) ? file(part) : "/dev/null") using 1:(1000 * $2) skip 1 with lines dt 3 lc rgb own title has(part) ? "moreau, run not finished" : ""
+    set key top right
   }
 }
 if (has("squeeze_10000_SignoriniCoulomb_500")) {
@@ -52,6 +54,15 @@ if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
          (has(name) ? file(name) : "/dev/null") using 1:3 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
   set key top right; set autoscale
 }
+if (has("heap_5200")) {
+  set output folder . "/heap.png"
+  set title "Heap of 5,200 spheres at the start, half the lengths: slope of the highest spheres"
+  set xlabel "t [s]"; set ylabel "angle [degrees]"; set yrange [0:*]
+  plot 19.7 with lines lw 2 lc rgb other title "Zhou et al., correlation", \
+       file("heap_5200") using 1:2 skip 1 with linespoints pt 6 lc rgb own title "rolling friction 1 mm", \
+       (has("heap_5200_no_rolling") ? file("heap_5200_no_rolling") : "/dev/null") using 1:2 skip 1 with linespoints pt 2 lc rgb third title has("heap_5200_no_rolling") ? "none" : ""
+  set autoscale
+}
 if (has("oblique_glass") && has("oblique_acetate")) {
   set output folder . "/oblique.png"
   set title "Oblique impacts of two spheres: tangential velocity after the impact over before, both over u_n"
@@ -66,7 +77,7 @@ if (has("oblique_glass") && has("oblique_acetate")) {
   set key top right
 }
 do for [kind in "plane axisymmetric"] {
-  name = "columns_" . kind; angular = name . "_polygons"
+  name = "columns_" . kind; angular = name . "_polygons"; rough = name . "_rolling"
   if (has(name)) {
     set output folder . "/" . name . ".png"
     set title sprintf("Collapse of a column, %s: run-out over the initial radius", kind)
@@ -79,7 +90,9 @@ do for [kind in "plane axisymmetric"] {
          of(name, "0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 6 lc rgb own title round . ", friction 0.3", \
          of(name, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 4 lc rgb last title round . ", friction 0.6", \
          of(angular, "0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 7 lc rgb own title has(angular) ? "polygons, friction 0.3" : "", \
-         of(angular, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 5 lc rgb last title has(angular) ? "polygons, friction 0.6" : ""
+         of(angular, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 5 lc rgb last title has(angular) ? "polygons, friction 0.6" : "", \
+         of(rough, "0.3") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 7 lc rgb own title has(rough) ? "with resistance to rolling, friction 0.3" : "", \
+         of(rough, "0.6") using 2:3:($4 > 0 ? $4 : 0) with yerrorbars pt 5 lc rgb last title has(rough) ? "with resistance to rolling, friction 0.6" : ""
     set key top right; set autoscale
   }
 }
