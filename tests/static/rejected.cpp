@@ -622,3 +622,28 @@ using Plane = moreau::Space<2>;
 moreau::Simulation<moreau::Disk<>, Law, moreau::MoreauJean, moreau::SweepAndPrune<Plane>, Solver>
     simulation(0.01, moreau::Materials<Law>(1));
 #endif  // impulses_without_solver
+
+#ifdef number_for_a_law
+// The friction in place of the law.
+// expect: a number in place of the law; write moreau::SignoriniCoulomb<>\(0.4\), not 0.4
+// and no other error
+#include "moreau/moreau.hpp"
+
+moreau::Simulation<moreau::Ball<double>, moreau::SignoriniCoulomb<double>> world(
+    0.02, EITHER(0.4, moreau::SignoriniCoulomb<double>(0.4)));
+#endif  // number_for_a_law
+
+#ifdef mesh_wall_of_a_shape_without
+// A mesh wall in a simulation of grains that cannot touch one.
+// expect: grains of this shape cannot touch a mesh wall
+// and no other error
+#include "moreau/moreau.hpp"
+#include "moreau/shape/cylinder.hpp"
+
+using Shape = EITHER(moreau::Cylinder<double>, moreau::Ball<double>);
+
+void add(moreau::Simulation<Shape, moreau::SignoriniCoulomb<double>>& world,
+         const moreau::FacetMesh<moreau::Space<3>>& mesh) {
+  world.add_mesh_wall(mesh);
+}
+#endif  // mesh_wall_of_a_shape_without

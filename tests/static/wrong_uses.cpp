@@ -89,6 +89,8 @@ TAKEN(moreau::HalfSpace<S>({0, 0, 1}), moreau::CylinderWall<R>(1, 0.5));
 REFUSED(22, moreau::HalfSpace<S>({0, 1}));
 REFUSED(23, moreau::CylinderWall<S>(T(1), 0.5));
 TAKEN(drive.apply(world, 1e-3));
+TAKEN(moreau::ForceDrive(body, {0, 0, 1}, moreau::HarmonicForce(1, 2, 3)).apply(world, 1e-3));
+TAKEN(moreau::VelocityDrive(body, {0.f, 1.f}, moreau::HarmonicForce(1, 2, 3)));
 REFUSED(24, drive.apply(plane, 1e-3));
 TAKEN(S::exp({0, 0, 0.1}), R::exp(0.1));
 REFUSED(25, S::exp({0, 0.1}));

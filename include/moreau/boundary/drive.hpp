@@ -14,6 +14,7 @@
 #include <cmath>
 #include <concepts>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "moreau/core/components.hpp"
@@ -67,6 +68,10 @@ template <class SimulationT, class VectorT>
 concept SimulationWithVector = std::same_as<typename SimulationT::Vector, VectorT>;
 
 namespace detail {
+
+/// The vector of N components in braces; whole numbers stand for double.
+template <class T, int N>
+using ListVector = Eigen::Matrix<std::conditional_t<std::floating_point<T>, T, double>, N, 1>;
 
 /// The common part of drives of forces and of velocities: a body, a direction and a function of
 /// time.
@@ -189,9 +194,15 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
 template <class Expression, class F>
 ForceDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> ForceDrive<typename Expression::PlainObject, F>;
+/// The direction can be a list of components, such as {0, 0, 1}.
+template <class T, int N, class F>
+ForceDrive(BodyId, const T (&)[N], F) -> ForceDrive<detail::ListVector<T, N>, F>;
 /// The direction can be an Eigen expression, such as -Vector::UnitX().
 template <class Expression, class F>
 VelocityDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> VelocityDrive<typename Expression::PlainObject, F>;
+/// The direction can be a list of components, such as {0, 0, 1}.
+template <class T, int N, class F>
+VelocityDrive(BodyId, const T (&)[N], F) -> VelocityDrive<detail::ListVector<T, N>, F>;
 
 }  // namespace moreau

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <tuple>
@@ -98,6 +99,10 @@ class Simulation : public BodyControl<ShapeT> {
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
              const Integrator& integrator = Integrator{}) requires(!set_valued)
       : Simulation(grain_size, materials, tolerances, Parts(integrator)) {}
+  /// Refused in one sentence: the friction is an argument of the law.
+  template <std::floating_point Number>
+  Simulation(Scalar, Number, const auto&...)
+      : Simulation(detail::refuse_number<Simulation, Number>()) {}
 
   Simulation(const Simulation&);  ///< a copy with the same state; it shares the team
   Simulation(Simulation&&);       ///< moves the state; the source may only be assigned to
@@ -271,6 +276,10 @@ class Simulation : public BodyControl<ShapeT> {
   /// Refused in the same way.
   template <class L = Law>
   requires(!BondingLaw<L, S>) void bond(const auto&...) const { detail::refuse_bonds<L, S>(); }
+  /// Refused in one sentence: the shape has no contacts with triangles.
+  template <class Shape = ShapeT>
+  requires(!MeshCollidable<Shape>) BodyId add_mesh_wall(const auto&...)
+  const { return detail::refuse_mesh_wall<Shape>(); }
   /// Refused in one sentence: a cell that deforms needs a law for impulses.
   template <class L = Law>
   requires(!SetValuedLaw<L, S>) void set_cell(const auto&...) const { detail::refuse_cell<L, S>(); }

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
-// What the law of a Simulation does not allow: a call ends in the sentence of one static_assert.
+// What a Simulation does not allow, because of its law, its shape or an argument: a call ends in the sentence of one
+// static_assert.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 
+#include "moreau/core/ids.hpp"
+#include "moreau/detect/pairs/mesh_collidable.hpp"
 #include "moreau/law/concepts.hpp"
 
 namespace moreau::detail {
+
+/// Declared only: never called.
+template <class T>
+T nothing();
 
 template <class Law, class S>
 std::size_t refuse_bonds() {
@@ -22,6 +30,21 @@ void refuse_cell() {
       SetValuedLaw<Law, S>,
       "Simulation: a cell of set_cell() needs a law for impulses, such as "
       "moreau::Compliant<moreau::SignoriniCoulomb<>>; under a regularized law use set_periodic()");
+}
+template <class ShapeT>
+BodyId refuse_mesh_wall() {
+  static_assert(MeshCollidable<ShapeT>,
+                "Simulation: grains of this shape cannot touch a mesh wall; balls, polygons, "
+                "polyhedra, capsules, "
+                "rounded shapes of these, OneOf and Compound of these can");
+  return {};
+}
+template <class Simulation, class Number>
+const Simulation& refuse_number() {
+  static_assert(!std::floating_point<Number>,
+                "Simulation(grain size, materials, ...): a number in place of the law; write "
+                "moreau::SignoriniCoulomb<>(0.4), not 0.4");
+  return nothing<const Simulation&>();
 }
 
 }  // namespace moreau::detail
