@@ -78,14 +78,14 @@ inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
 }
 
 /// The bed of settle(), made of up to four copies of a settled bed, one above the other: the bed itself, mirrored along
-/// the length, along the width, along both. It settles again for 0.1 s, because surface and bottom do not fit. A deep
+/// the length, along the width, along both. It settles again for 0.06 s, because surface and bottom do not fit. A deep
 /// bed that is deposited at random falls by its height, which takes as many steps as the impact.
 inline Numbers stacked_bed(Session& session, std::size_t copies, std::size_t count,
                            std::uint64_t seed) {
   const Numbers bed = settled_bed(session, {}, count, seed);
   const std::string key = "/bed of " + std::to_string(copies * count) + " balls, " +
                           std::to_string(copies) + " copies, seed " + std::to_string(seed);
-  return settle(session, key, 0.1, [&](World& empty) {
+  return settle(session, key, 0.06, [&](World& empty) {
     double top = floor_height;
     for (std::size_t k = 0; k + 3 < bed.size(); k += 3) top = std::max(top, bed[k + 2]);
     const double height = top + diameter / 2 - floor_height;
