@@ -33,6 +33,7 @@
 #include "moreau/world/simulation.hpp"
 
 #include "io/temporary_folder.hpp"
+#include "threads/eager_team.hpp"
 #include "types.hpp"
 
 using namespace moreau;
@@ -543,8 +544,8 @@ TEST_CASE_TEMPLATE("bond: a stone of bonded parts is one body until it breaks", 
     speed += double(world.bodies().grain_mass[part.index()] * world.velocity(part)[0]);
   CHECK(agree(speed, 0.1 * 100 * 1e-4 * double(properties.mass), 1e-4));
   const auto turn = (world.spin(parts[0]) - world.spin(parts[1])).norm();
-  // What the correction of a rigid bond makes of the rounding of its stretch, about radius epsilon, in a step.
-  const double rounding = 0.4 * double(std::numeric_limits<T>::epsilon()) / double(h);
+  // By the rounding of rotations, of which bond_rounding.cpp has the derivation: 9.0 of three disks.
+  const double rounding = 9 * double(std::numeric_limits<T>::epsilon()) / double(h);
   CHECK(double(turn) < (CompliantLaw<Law, S> ? 0.2 : 2e-3) * double(world.spin(parts[0]).norm()) +
                            std::max(1e-6, rounding));
   CHECK(bond_state(world).fragments == 2);
@@ -856,6 +857,48 @@ TEST_CASE_TEMPLATE("bond: a step that is repeated with more contacts yields once
         worst,
         (one.world.pose(one.grains[i]).position - two.world.pose(two.grains[i]).position).norm());
   CHECK(worst < 1e-6 * radius);
+}
+
+TEST_CASE_TEMPLATE("bond: several threads have the bits of one while bonds soften and break",
+                   ShapeT, Circle, Globe) {
+  for (const int threads : {2, 3}) {
+    const Rigid law({tension, shear, bending, 2e-4}, friction);
+    Shower<ShapeT, Rigid> one(law, true), two(law, true);
+    two.world.set_team(threads_test::eager(threads));
+    for (auto* each : {&one, &two}) CHECK(each->world.bond_touching(1e-4) > 7);
+    for (int k = 0; k < 40; ++k) one.world.step(1e-4), two.world.step(1e-4);
+    CHECK(!one.world.breakages().empty());
+    CHECK(!one.world.bonds().empty());
+    CHECK(snapshot(one.world) == snapshot(two.world));
+  }
+}
+
+TEST_CASE_TEMPLATE("bond: removed grains take their bonds, new grains in their place have none", X,
+                   MOREAU_TYPES((Case<Circle, Rigid>, Case<Globe, Soft>),
+                                (Case<Circle, Soft>, Case<Globe, Rigid>))) {
+  using World = Row<typename X::Shape, typename X::LawOf>;
+  using S = typename World::S;
+  using Vector = typename S::Vector;
+  World row(6, 1e-3);
+  const double h = 1e-3, fall = 9.81;
+  row.world.set_gravity(Vector(fall * Vector::UnitX()));  // the row hangs along x
+  for (int k = 0; k < 200; ++k) row.world.step(h);
+  const double weight = fall * double(row.world.bodies().grain_mass[1]);
+  CHECK(agree(row.world.contact_impulse(row.grains[0]).norm() / h, 5 * weight, 1e-3));
+  const double lowest = row.world.pose(row.last()).position[0];
+  row.world.remove_grain(row.grains[3]);
+  CHECK(row.world.bonds().size() == 3);
+  CHECK(row.world.breakages().empty());
+  for (int k = 0; k < 50; ++k) row.world.step(h);
+  CHECK(agree(row.world.pose(row.last()).position[0] - lowest, fall * 2500 * h * h / 2, 1e-3));
+  CHECK(agree(row.world.contact_impulse(row.grains[0]).norm() / h, 2 * weight, 1e-2));
+  const Vector place = row.world.pose(row.grains[2]).position + 2 * radius * Vector::UnitX();
+  const ShapeId shape = row.world.add_shape(typename X::Shape(radius));
+  const BodyId fresh = row.world.add_grain(shape, Pose<S>(place), 1000);
+  CHECK(fresh.index() == row.grains[3].index());
+  CHECK(row.world.bonds().size() == 3);
+  for (int k = 0; k < 50; ++k) row.world.step(h);
+  CHECK(agree(row.world.pose(fresh).position[0] - place[0], fall * 2500 * h * h / 2, 1e-3));
 }
 
 TEST_CASE_TEMPLATE("bond: in a step that is repeated, a torque acts once", ShapeT, Circle, Globe) {

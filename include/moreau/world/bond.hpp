@@ -76,7 +76,9 @@ struct BondPlace {
   typename S::Vector middle_b;  ///< from the centre of b, or its image, to it [m]
   typename S::Vector stretch;   ///< from the point of a to that of b [m]
   typename S::Angular turn;     ///< rotation vector from the frame of a to that of b [rad]
-  typename S::Scalar rounding;  ///< of the stretch [m]
+  typename S::Scalar
+      rounding;  ///< of the stretch by that of the positions: no motion makes it smaller [m]
+  typename S::Scalar measured;  ///< of the stretch as it is computed from the positions [m]
 };
 
 /// The rotation vector of the rotation that takes the orthonormal columns of `from` to those of `to` [rad].
@@ -100,15 +102,16 @@ BondPlace<S> place_of(const Bond<S>& bond, const Bodies<S>& bodies,
                            axes_b = bodies.axes(bond.b.index());
   const typename S::Matrix of_a = axes_a * bond.frame_a, of_b = axes_b * bond.frame_b;
   const typename S::Vector at_a = axes_a * bond.anchor_a, at_b = axes_b * bond.anchor_b;
-  const typename S::Vector between = b.position + shift - a.position;
+  const typename S::Vector between = b.position - a.position + shift;
   BondPlace<S> place;
   place.stretch = between + at_b - at_a;
   place.turn = rotation_between<S>(of_a, of_b);
   place.frame = S::exp(place.turn / 2).toRotationMatrix() * of_a;
-  // Positions are multiples of their rounding: no motion makes the stretch smaller.
-  place.rounding =
-      std::numeric_limits<typename S::Scalar>::epsilon() *
-      (at_a.norm() + at_b.norm() + a.position.norm() + b.position.norm() + shift.norm());
+  const typename S::Scalar levers = at_a.norm() + at_b.norm() + shift.norm();
+  constexpr auto epsilon = std::numeric_limits<typename S::Scalar>::epsilon();
+  // Positions are multiples of their rounding. Their difference has the rounding of itself alone.
+  place.rounding = epsilon * (levers + a.position.norm() + b.position.norm());
+  place.measured = epsilon * (levers + between.norm());
   place.middle_a = at_a + place.stretch / 2;
   place.middle_b = at_b - place.stretch / 2;
   return place;

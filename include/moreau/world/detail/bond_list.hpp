@@ -16,9 +16,7 @@
 //
 // whose normal entry is the velocity of the points in the next detection: to u belongs the chord E(w_b) X_b - E(w_a) X_a of
 // the arcs on which the points of the bodies move over the step (chord_velocities.hpp). A rigid bond has rate (d, R t) / h
-// with a rate of a fifth, which corrects what the solver and the overlap correction leave. Of d and t it corrects what
-// exceeds the rounding of the positions: in a closed row of bonds no motion corrects that, and the forces would grow from
-// sweep to sweep.
+// with a rate of a fifth, which corrects what the solver and the overlap correction leave (corrected_bonds.hpp).
 //
 // The first detection comes after a part of a step, in which the bodies move along tangents. Bodies that turn together
 // then have a stretch of second order in the step, which is the memory of a new bond: to correct it would add to the
@@ -54,6 +52,7 @@
 #include "moreau/world/detail/bond_arcs.hpp"
 #include "moreau/world/detail/bond_yield.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
+#include "moreau/world/detail/corrected_bonds.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
@@ -62,7 +61,7 @@ namespace moreau::detail {
 struct NoBonds {
   static void start(const auto&) {}
   static void hide(const auto&, const auto& use) { use(); }
-  static void offset(const auto&, auto&, const auto&, const auto&) {}
+  static void offset(const auto&, auto&, const auto&, const auto&, const auto&) {}
 };
 
 /// The bonds of a simulation, sorted by their bodies, and the list of breakages.
@@ -198,21 +197,19 @@ class BondList {
   /// @param context StepContext of the step
   /// @param pulls   h T of each contact [N s]
   /// @param before  velocities before the step, in the configuration of the contacts [m/s, rad/s]
+  /// @param shared  bodies that other processes share; null: none
   void offset(const auto& context, Operator& op, std::span<const Scalar> pulls,
-              std::span<const typename S::Twist> before) {
+              std::span<const typename S::Twist> before, [[maybe_unused]] SharedBodies* shared) {
+    if constexpr (!is_compliant) find_corrected(context.bodies, shared);
     for_each([&](std::size_t i, std::size_t c) {
-      const BondPlace<S>& at = places_[i];
+      const Strain strain = strain_of(i);
       const typename S::Inertia spin_frame = S::angular_frame(op.frame(c));
-      Vector stretch = at.stretch - at.frame * bonds_[i].slip;
-      typename S::Angular turn = at.turn - S::angular_frame(at.frame) * bonds_[i].bend;
-      if constexpr (!is_compliant) {
-        stretch = beyond(stretch, at.rounding);
-        turn = beyond(turn, rounding_of_turn);
-      }
       Row row;
-      linear<S>(row) = op.frame(c).transpose() * stretch;
-      angular<S>(row) = op.radius(c) * (spin_frame.transpose() * turn);
-      row *= (is_compliant ? 1 : rate) / context.step;
+      linear<S>(row) = op.frame(c).transpose() * strain.stretch;
+      angular<S>(row) = op.radius(c) * (spin_frame.transpose() * strain.turn);
+      Scalar share = 1;
+      if constexpr (!is_compliant) share = rate * corrected_.share(context.bodies, bonds_[i]);
+      row *= share / context.step;
       drifts_[i] = is_compliant ? Row(Row::Zero()) : row;
       linear<S>(row) += transposed_product(
           op.frame(c), chord_of_bond<S>(context.contacts.points[c], before, context.step));
@@ -232,7 +229,7 @@ class BondList {
     for_each([&](std::size_t i, std::size_t c) {
       bonds.velocity2 += double(Row(velocity_of(c) + drifts_[i]).squaredNorm());
       if constexpr (!is_compliant) {
-        const double stretch = double(rate / step * places_[i].rounding),
+        const double stretch = double(rate / step * places_[i].measured),
                      turn = double(rate / step * rounding_of_turn * op.radius(c));
         bonds.rounding2 += stretch * stretch + turn * turn;
       }
@@ -351,17 +348,34 @@ class BondList {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   static constexpr bool is_compliant = CompliantLaw<Law, S>;
   static constexpr Scalar rate = Scalar(0.2);
-  static constexpr Scalar rounding_of_turn = std::numeric_limits<Scalar>::epsilon();  // [rad]
+  // Of t: the axes of both bodies, and their products with the two frames of the bond [rad].
+  static constexpr Scalar rounding_of_turn = 4 * std::numeric_limits<Scalar>::epsilon();
+  /// d and t of a bond, world axes.
+  struct Strain {
+    Vector stretch;            ///< [m]
+    typename S::Angular turn;  ///< [rad]
+  };
 
   LoadedBond<S, Law> loaded(std::size_t i, std::size_t c, const Materials<Law>& materials,
                             const Operator& op, const ContactsOf<Law, S>& contacts,
                             std::span<const Row> pushes, Scalar step) const {
     return {materials.laws()[contacts.points[c].law], op, c, pushes[c], drifts_[i], step};
   }
-  /// The part of a vector that is longer than its rounding.
-  static auto beyond(const auto& x, Scalar rounding) {
-    const Scalar length = x.norm();
-    return std::decay_t<decltype(x)>(x * (length > rounding ? 1 - rounding / length : Scalar(0)));
+  Strain strain_of(std::size_t i) const {
+    const BondPlace<S>& at = places_[i];
+    return {at.stretch - at.frame * bonds_[i].slip,
+            at.turn - S::angular_frame(at.frame) * bonds_[i].bend};
+  }
+  void find_corrected(const Bodies<S>& bodies, SharedBodies* shared) {
+    if (bonds_.empty() && !shared) return;
+    corrected_.start(bodies.size());
+    for_each([&](std::size_t i, std::size_t) { corrected_.connect(bodies, bonds_[i]); });
+    for_each([&](std::size_t i, std::size_t) {
+      const Strain strain = strain_of(i);
+      corrected_.add(bodies, bonds_[i], places_[i].rounding / strain.stretch.norm());
+      corrected_.add(bodies, bonds_[i], rounding_of_turn / strain.turn.norm());
+    });
+    corrected_.end(shared);
   }
   /// Calls use(index of the bond, index of its contact).
   void for_each(const auto& use) const {
@@ -400,6 +414,7 @@ class BondList {
   List<std::size_t> contact_of_;       // of each bond, or none
   List<BondPlace<S>> places_;          // of each bond
   List<Row> drifts_;                   // of each bond: the correction in its offset, see offset()
+  CorrectedBonds<S> corrected_;        // of rigid bonds
   List<unsigned char> broken_;         // of each bond
   List<BondYield<S>> yields_;          // of each bond
   List<Softening<Scalar>> softening_;  // of each bond

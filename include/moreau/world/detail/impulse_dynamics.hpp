@@ -262,7 +262,7 @@ class ImpulseDynamics {
     }
     if constexpr (bonding || !compliant) attraction_.add_to(pushes_.rows());
     bonds_.offset(context, problem_.delassus, attraction_.pulls(),
-                  std::span<const Twist>(velocities_.before));
+                  std::span<const Twist>(velocities_.before), shared_.get());
     return found;
   }
   std::size_t start(const Context& context, const List<Row>& before) {
