@@ -185,7 +185,6 @@ TEST_CASE_TEMPLATE("bond: the parts of a free stone turn with it, wherever it is
   using Vector = typename S::Vector;
   using Law = Bonded<T>;
   const T h = T(1e-4);
-  const double epsilon = double(std::numeric_limits<T>::epsilon());
   for (const double away : {0.0, 0.1, 1.0, 10.0})
     for (const double angle : {0.7, 1.9}) {
       CAPTURE(away);
