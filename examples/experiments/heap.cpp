@@ -159,6 +159,7 @@ void heap(Session& session) {
   using namespace heap_parts;
   const bool quick = session.quick();
   std::vector<Case> cases{{"half size", 5200, 0.5, 0.08, true, rolling, 4, 5e-4},
+                          {"half size, twice the step", 5200, 0.5, 0.08, true, rolling, 10, 1e-3},
                           {"half size, no rolling friction", 5200, 0.5, 0.08, true, 0, 4, 5e-4},
                           {"discharge", 52000, 1, 0.2, false, rolling, 15, 2e-4}};
   if (quick) cases = {{"discharge", 500, 1, 0.021, false, rolling, 0.1, 2e-4}};
@@ -168,7 +169,8 @@ void heap(Session& session) {
     const std::size_t n = result.values.size() - 4;
     std::vector<Numbers> rows;
     for (std::size_t k = 0; k < n; ++k) rows.push_back({1 + 0.25 * double(k), result.values[k]});
-    session.curve("heap_" + std::to_string(c.count) + (c.rolling > 0 ? "" : "_no_rolling"),
+    session.curve("heap_" + std::to_string(c.count) + (c.rolling > 0 ? "" : "_no_rolling") +
+                      (c.until == 10 ? "_long" : ""),
                   {"t [s]", "angle [degrees]"}, rows);
     Row row;
     row.figure = std::string(c.name) + ": angle of repose on the plate [degrees]";

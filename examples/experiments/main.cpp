@@ -30,7 +30,7 @@ std::vector<Experiment> all_experiments() {
        "Dosta et al. 2024", squeeze, 3600, 10},
       {"impact", "a steel ball falls into beds of glass balls", "Dosta et al. 2024", impact, 7000,
        10},
-      {"drum", "two sizes of balls in a rotating drum", "Dosta et al. 2024", drum, 1900, 10},
+      {"drum", "two sizes of balls in a rotating drum", "Dosta et al. 2024", drum, 3000, 10},
       {"silo", "discharge of 100,000 balls through two orifices", "Dosta et al. 2024", silo, 40000,
        15},
   };

@@ -57,10 +57,11 @@ if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
 if (has("heap_5200")) {
   set output folder . "/heap.png"
   set title "Heap of 5,200 spheres at the start, half the lengths: slope of the highest spheres"
-  set xlabel "t [s]"; set ylabel "angle [degrees]"; set yrange [0:*]
+  set xlabel "t [s]"; set ylabel "angle [degrees]"; set yrange [0:30]
   plot 19.7 with lines lw 2 lc rgb other title "Zhou et al., correlation", \
-       file("heap_5200") using 1:2 skip 1 with linespoints pt 6 lc rgb own title "rolling friction 1 mm", \
-       (has("heap_5200_no_rolling") ? file("heap_5200_no_rolling") : "/dev/null") using 1:2 skip 1 with linespoints pt 2 lc rgb third title has("heap_5200_no_rolling") ? "none" : ""
+       file("heap_5200") using 1:2 skip 1 with linespoints pt 6 lc rgb own title "rolling friction 1 mm, step 0.5 ms", \
+       (has("heap_5200_long") ? file("heap_5200_long") : "/dev/null") using 1:2 skip 1 with linespoints pt 4 lc rgb last title has("heap_5200_long") ? "the same, step 1 ms" : "", \
+       (has("heap_5200_no_rolling") ? file("heap_5200_no_rolling") : "/dev/null") using 1:2 skip 1 with linespoints pt 2 lc rgb third title has("heap_5200_no_rolling") ? "no rolling friction" : ""
   set autoscale
 }
 if (has("oblique_glass") && has("oblique_acetate")) {
