@@ -7,7 +7,8 @@
 //     not far beyond the shifts are candidates; the others become candidates when the shifts have grown. The search for
 //     candidates leaves out blocks of contacts of which none is deep enough, and shifts are read of bodies with a row alone:
 //     few contacts of a packing take part.
-//  2. A contact that is taken gets a row with J and M^-1 J^T: a visit then reads the row and two shifts.
+//  2. A contact that is taken gets a row with J and M^-1 J^T: a visit then reads the row and two shifts, padded to whole
+//     SIMD registers.
 //  3. The rows of a batch are sorted by level: one more than the highest level of the rows before it that share a body
 //     with it that moves. The result is that of the order of the contacts, in which shifts go up a stack in one sweep.
 //     Rows of one level share no such body, so that a CPU need not end a visit before it begins the next one.
@@ -19,6 +20,8 @@
 //    chunk are a part, those between chunks are one more. Each part has its own rows and levels. In a sweep the members
 //    of a team visit the parts inside chunks, then one member visits the contacts between chunks.
 #pragma once
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -48,6 +51,9 @@ class OverlapSweeps {
   using Vector = typename S::Vector;
   using Angular = typename S::Angular;
   using Twist = typename S::Twist;
+  /// A Twist padded to whole SIMD registers; the padding is zero.
+  static constexpr int width = (S::dofs + 3) / 4 * 4;
+  using PaddedTwist = Eigen::Matrix<Scalar, width, 1>;
   /// Least bodies of a chunk. The contact solver has twice as many, because its chunks leave SIMD lanes empty.
   static constexpr std::size_t bodies_of_chunk = 300;
 
@@ -56,7 +62,7 @@ class OverlapSweeps {
 
   /// Begins without shifts.
   void start(std::size_t bodies) {
-    shifts_.assign(bodies + 1, Twist::Zero());
+    shifts_.assign(bodies + 1, PaddedTwist::Zero());
     reach_.assign(bodies, 0);
     // Whole words, twice.
     touched_.assign(2 * words(bodies) * word, 0);
@@ -102,8 +108,7 @@ class OverlapSweeps {
         wait();
         if (rank == 0) visit_all(parts_[inner_]);
         if (rank == 0 && shared) {
-          shared->average(std::span(shifts_[0].data(), moves_.size() * std::size_t{S::dofs}),
-                          S::dofs);
+          shared->average(std::span(shifts_[0].data(), moves_.size() * std::size_t(width)), width);
           std::fill(touched_.begin(), touched_.end(), 1);  // by any process
         }
         wait();
@@ -117,13 +122,11 @@ class OverlapSweeps {
  private:
   /// The data that a visit reads. The shift of a body that cannot move is that after the last body; it stays zero.
   struct Row {
-    Vector normal;           // world axes
-    Angular arm_a, arm_b;    // l x n [m]
-    Vector move_a, move_b;   // M^-1 n [1/kg]
-    Angular turn_a, turn_b;  // I^-1 (l x n) [1/(kg m)]
-    Scalar inverse;          // 1 / (J M^-1 J^T) [kg]
-    Scalar target;           // [m]
-    Scalar push;             // p [kg m]
+    PaddedTwist gap_a, gap_b;    // (n, l x n): J of b, and less J of a [-, m]
+    PaddedTwist move_a, move_b;  // M^-1 times these [1/kg, 1/(kg m)]
+    Scalar inverse;              // 1 / (J M^-1 J^T) [kg]
+    Scalar target;               // [m]
+    Scalar push;                 // p [kg m]
     std::uint32_t a, b;
   };
 
@@ -216,7 +219,7 @@ class OverlapSweeps {
   MOREAU_COMPILED_ONCE void find_reach(Slice& slice, Scalar longest) {
     slice.reach = 0;
     for_each_touched(slice, [&](std::size_t i) {
-      const Twist& shift = shifts_[i];
+      const PaddedTwist& shift = shifts_[i];
       reach_[i] = shift.squaredNorm() > 0
                       ? linear<S>(shift).norm() + longest * angular<S>(shift).norm()
                       : Scalar(0);
@@ -233,7 +236,7 @@ class OverlapSweeps {
     const bool is_beyond = -2 * reach < me.listed;
     for (std::size_t s = me.slices.begin; s < me.slices.end; ++s) {
       if (is_beyond) list(slices_[s], contacts, depths, deepest, -far * reach, me.listed);
-      take(slices_[s], least);
+      take(slices_[s], least, reach);
     }
     if (is_beyond) me.listed = -far * reach;
   }
@@ -253,7 +256,8 @@ class OverlapSweeps {
     }
     slice.candidates = end - slice.contacts.begin;
   }
-  void take(Slice& slice, Scalar least) {
+  /// @param most the largest reach of a body [m]
+  void take(Slice& slice, Scalar least, Scalar most) {
     const std::size_t first = slice.contacts.begin;
     std::uint32_t* const counts = &counts_[std::size_t(&slice - slices_.data()) * parts_.size()];
     std::fill(counts, counts + parts_.size(), 0);
@@ -263,7 +267,8 @@ class OverlapSweeps {
     };
     for (std::size_t k = first; k < first + slice.candidates; ++k) {
       const Candidate& candidate = candidates_[k];
-      if (candidate.depth + reach(candidate.a) + reach(candidate.b) > 0) {
+      if (candidate.depth + most + most > 0 &&
+          candidate.depth + reach(candidate.a) + reach(candidate.b) > 0) {
         taken_[taken++] = candidate;
         ++counts[candidate.part];
       } else {
@@ -325,15 +330,19 @@ class OverlapSweeps {
   }
   void fill(Row& row, const auto& op, const Contact<S>& contact, std::uint32_t c,
             Scalar target) const {
-    const InverseMass<S>&a = op.inverse_mass(contact.a), &b = op.inverse_mass(contact.b);
     const auto still = static_cast<std::uint32_t>(moves_.size());
-    row.normal = contact.frame.col(0);
-    row.arm_a = S::moment(contact.lever_a, row.normal);
-    row.arm_b = S::moment(contact.lever_b, row.normal);
-    row.move_a = a.velocity_of(row.normal);
-    row.move_b = b.velocity_of(row.normal);
-    row.turn_a = a.spin_of(row.arm_a);
-    row.turn_b = b.spin_of(row.arm_b);
+    const Vector normal = contact.frame.col(0);
+    const auto set = [&](PaddedTwist& gap, PaddedTwist& move, const InverseMass<S>& mass,
+                         const Vector& lever) {
+      const Angular arm = S::moment(lever, normal);
+      const Vector velocity = mass.velocity_of(normal);
+      const Angular spin = mass.spin_of(arm);
+      for (int k = 0; k < S::dim; ++k) gap[k] = normal[k], move[k] = velocity[k];
+      for (int k = 0; k < S::angular_dim; ++k) gap[S::dim + k] = arm[k], move[S::dim + k] = spin[k];
+      for (int k = S::dofs; k < width; ++k) gap[k] = move[k] = 0;
+    };
+    set(row.gap_a, row.move_a, op.inverse_mass(contact.a), contact.lever_a);
+    set(row.gap_b, row.move_b, op.inverse_mass(contact.b), contact.lever_b);
     row.inverse = op.normal(c) > 0 ? 1 / op.normal(c) : Scalar(0);
     row.target = target;
     row.push = 0;
@@ -343,7 +352,7 @@ class OverlapSweeps {
 
   MOREAU_COMPILED_ONCE void finish_all(const Slice& slice, const auto& finish) const {
     for_each_touched(slice, [&](std::size_t i) {
-      if (!shifts_[i].isZero(0)) finish(i, shifts_[i]);
+      if (!shifts_[i].isZero(0)) finish(i, Twist(shifts_[i].template head<S::dofs>()));
     });
   }
 
@@ -355,30 +364,23 @@ class OverlapSweeps {
   void visit(std::span<Row> rows) {
     const std::size_t still = moves_.size();
     for (Row& row : rows) {
-      Twist &a = shifts_[row.a], &b = shifts_[row.b];
-      const Twist &of_a = a, &of_b = b;
-      const Scalar opening = row.normal.dot(linear<S>(of_b) - linear<S>(of_a)) +
-                             (row.arm_b.dot(angular<S>(of_b)) - row.arm_a.dot(angular<S>(of_a)));
+      PaddedTwist &a = shifts_[row.a], &b = shifts_[row.b];
+      const Scalar opening = (row.gap_b.cwiseProduct(b) - row.gap_a.cwiseProduct(a)).sum();
       const Scalar push = std::max(Scalar(0), row.push + (row.target - opening) * row.inverse);
       const Scalar change = push - row.push;
+      if (change == 0) continue;  // as of contacts that stay open: the next visits need not wait
       row.push = push;
-      if (row.a != still) {
-        linear<S>(a) -= change * row.move_a;
-        angular<S>(a) -= change * row.turn_a;
-      }
-      if (row.b != still) {
-        linear<S>(b) += change * row.move_b;
-        angular<S>(b) += change * row.turn_b;
-      }
+      if (row.a != still) a -= change * row.move_a;
+      if (row.b != still) b += change * row.move_b;
     }
   }
 
   // One per body.
   std::span<const unsigned char> moves_;  // not 0 if impulses move it; of the operator
   List<unsigned char>
-      touched_;         // by rows inside of chunks, then by rows between chunks; whole words
-  List<Twist> shifts_;  // and zero at the end
-  List<Scalar> reach_;  // [m]
+      touched_;               // by rows inside of chunks, then by rows between chunks; whole words
+  List<PaddedTwist> shifts_;  // and zero at the end
+  List<Scalar> reach_;        // [m]
   List<std::uint32_t> levels_;  // inside chunks, then between chunks
   BodyChunks chunks_;
   std::array<Slice, std::size_t(slice_count)> slices_;
