@@ -25,6 +25,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/contact_islands.hpp"
+#include "moreau/contact/contact_pairs.hpp"
 #include "moreau/contact/detail/operator_cell.hpp"
 #include "moreau/contact/detail/operator_frames.hpp"
 #include "moreau/contact/detail/operator_point.hpp"
@@ -85,6 +86,7 @@ class BodyDelassus {
                                                               points_,  heads_,  frames_};
     longest_lever_ = assembly.assemble(team);
     if constexpr (Couples) assembly.assemble_couples(roots, team);
+    pairs_.list(contacts.size(), [this](std::size_t c) { return heads_[c].bodies; });
   }
 
   /// The numbers of point(c), in their order in memory; without couples.
@@ -116,6 +118,8 @@ class BodyDelassus {
   const typename S::Vector& lever_a(std::size_t c) const { return points_[c].lever_a; }
   /// From the centre of body b to the contact point, world axes [m].
   const typename S::Vector& lever_b(std::size_t c) const { return points_[c].lever_b; }
+  /// The pairs of bodies of the contacts.
+  const detail::ContactPairs& pairs() const { return pairs_; }
   /// The small islands of the contacts. The first call after assemble() finds them.
   const detail::ContactIslands& islands() {
     islands_.find_once(*this);
@@ -321,6 +325,7 @@ class BodyDelassus {
   List<Point> points_;
   List<detail::OperatorHead<Scalar>> heads_;
   detail::OperatorFrames<S, Couples> frames_;
+  detail::ContactPairs pairs_;
   detail::ContactIslands islands_;
   List<InverseMass<S>> masses_;
   List<unsigned char> freedoms_;

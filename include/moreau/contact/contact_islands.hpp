@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "moreau/contact/contact_pairs.hpp"
 #include "moreau/core/disjoint_sets.hpp"
 #include "moreau/core/list.hpp"
 
@@ -37,8 +37,7 @@ class ContactIslands {
   bool has_large() const { return has_large_; }
   /// Number of bodies of an island that can move and have a contact.
   std::size_t bodies(std::size_t island) const { return bodies_[island]; }
-  /// Number of pairs of bodies of an island that both move and have contacts. Contacts of a pair that do not follow one
-  /// another count as several pairs.
+  /// Number of pairs of bodies of an island that both move and have contacts.
   std::size_t pairs(std::size_t island) const { return pairs_[island]; }
   /// The contacts of an island, ascending.
   std::span<const std::uint32_t> contacts(std::size_t island) const {
@@ -55,47 +54,32 @@ class ContactIslands {
     std::uint32_t pairs;   // of bodies that can move
   };
 
-  /// Bodies that touch, and their contacts, which follow one another.
-  struct Pair {
-    std::uint32_t a, b;
-    std::uint32_t first;   // contact
-    std::uint32_t island;  // none: not small
-  };
-
   template <class Operator>
   void find(const Operator& op) {
-    const std::size_t bodies = op.body_count(), contacts = op.size();
+    const std::size_t bodies = op.body_count();
     const std::span<const unsigned char> freedoms = op.freedoms();
     sets_.assign(bodies);
     found_.assign(bodies, {none, 0, 0});
     // A later step with the first small island allocates no memory.
-    touching_.resize(contacts + 1);
-    contacts_.resize(contacts);
+    island_of_.resize(op.size());
+    contacts_.resize(op.size());
     bodies_.reserve(bodies);
     pairs_.reserve(bodies);
     first_.reserve(bodies + 2);
-    std::size_t count = 0;
-    std::array<std::uint32_t, 2> before{none, none};
-    std::uint32_t root = none;  // of the set of before[0]
-    for (std::size_t c = 0; c < contacts; ++c) {
-      const auto pair = op.bodies(c);
-      if (pair == before) continue;
-      const auto [a, b] = pair;
-      touching_[count++] = {a, b, static_cast<std::uint32_t>(c), none};
+    std::uint32_t last = none, root = none;  // a body, and the root of its set
+    for (const auto [a, b] : op.pairs().bodies()) {
       found_[b].bodies = freedoms[b] != 0;
-      if (a != before[0]) {
+      if (a != last) {
         found_[a].bodies = freedoms[a] != 0;
-        root = sets_.find(a);
+        root = sets_.find(last = a);
       }
-      before = pair;
       if (!freedoms[a] || !freedoms[b]) continue;
       ++found_[a].pairs;
       const std::uint32_t other = sets_.find(b);
       if (other != root) root = sets_.join(root, other);
     }
-    touching_[count] = {none, none, static_cast<std::uint32_t>(contacts), none};
     bodies_.clear();
-    if (add_up()) number(std::span(touching_).first(count), freedoms);
+    if (add_up()) number(op.pairs(), freedoms);
   }
   /// Adds the bodies and pairs of each island up where its smallest number is.
   /// @returns whether an island is small
@@ -116,24 +100,27 @@ class ContactIslands {
     return has_small;
   }
   /// Numbers the small islands and lists their contacts.
-  void number(std::span<Pair> touching, std::span<const unsigned char> freedoms) {
+  void number(const ContactPairs& pairs, std::span<const unsigned char> freedoms) {
+    const std::span<const std::uint32_t> first = pairs.first();
     pairs_.clear();
     first_.assign(2, 0);
     std::uint32_t last = none, island = none;  // a body, and its island
-    for (Pair& pair : touching) {
-      const std::uint32_t body = freedoms[pair.a] ? pair.a : pair.b;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [a, b] = pairs.bodies()[k];
+      const std::uint32_t body = freedoms[a] ? a : b;
+      island_of_[k] = none;
       if (!freedoms[body]) continue;
       if (body != last) island = island_of(found_[sets_.find(last = body)]);
-      pair.island = island;
-      if (island != none) first_[island + 2] += (&pair + 1)->first - pair.first;
+      island_of_[k] = island;
+      if (island != none) first_[island + 2] += first[k + 1] - first[k];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
     // first_[k + 1] is the next free entry of island k, and at the end the first of island k + 1.
-    for (const Pair& pair : touching) {
-      if (pair.island == none) continue;
-      for (std::uint32_t c = pair.first; c < (&pair + 1)->first; ++c)
-        contacts_[first_[pair.island + 1]++] = c;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (island_of_[k] == none) continue;
+      for (std::uint32_t c = first[k]; c < first[k + 1]; ++c)
+        contacts_[first_[island_of_[k] + 1]++] = c;
     }
   }
   /// The number of an island, which it gets here; none: it is large.
@@ -152,8 +139,7 @@ class ContactIslands {
   bool has_large_ = false;
   DisjointSets sets_;
   List<Found> found_;
-  List<Pair>
-      touching_;  // in the order of the contacts, then one that begins after the last contact
+  List<std::uint32_t> island_of_;  // of each pair; none: not small
   List<std::uint32_t> contacts_;
   List<std::size_t> bodies_, pairs_, first_;
 };

@@ -91,9 +91,9 @@ class PriorityColouring {
     priority_.clear();
     wall_of_.assign(op.size(), ColouredPair::none);
     const auto id = [&](std::uint32_t body) { return sharing ? sharing->id(body) : body; };
-    for (std::uint32_t first = 0, last = 0; first < op.size(); first = last) {
-      const std::array<std::uint32_t, 2> pair = op.bodies(first);
-      for (last = first; last < op.size() && op.bodies(last) == pair;) ++last;
+    for (std::size_t p = 0; p < op.pairs().size(); ++p) {
+      const auto pair = op.pairs().bodies()[p];
+      const std::uint32_t first = op.pairs().first()[p], last = op.pairs().first()[p + 1];
       ColouredPair one{first, last, ColouredPair::none, ColouredPair::none};
       std::array<std::uint32_t, 2> bodies;
       for (std::size_t k = 0; k < 2; ++k) {

@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <span>
 
+#include "moreau/contact/contact_pairs.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/sort_by_key.hpp"
 #include "moreau/law/concepts.hpp"
@@ -71,7 +72,12 @@ class ContactGroups {
   /// @param team     threads that share the work
   void lay_out(const Operator& op, std::span<const Impulse> impulses, const Team& team) {
     body_count_ = op.body_count();
-    find_pairs(op);
+    bodies_ = op.pairs().bodies();
+    first_ = op.pairs().first();
+    moves_ = op.freedoms();
+    isotropic_.resize(body_count_);
+    for (std::size_t i = 0; i < body_count_; ++i) isotropic_[i] = op.inverse_mass(i).is_isotropic();
+    chunks_.assign(body_count_, bodies_of_chunk);
     colouring_.assign(bodies_, moves_,
                       [this](std::size_t k) { return chunk_of(k) != Group::shared; });
     find_shares(op);
@@ -196,26 +202,6 @@ class ContactGroups {
                                  alone_kind = not_inside | serial << colour_bits;
   static constexpr std::size_t bodies_of_chunk = 600;
 
-  void find_pairs(const Operator& op) {
-    moves_.resize(op.body_count());
-    isotropic_.resize(op.body_count());
-    chunks_.assign(op.body_count(), bodies_of_chunk);
-    for (std::size_t i = 0; i < op.body_count(); ++i) {
-      moves_[i] = op.inverse_mass(i).moves();
-      isotropic_[i] = op.inverse_mass(i).is_isotropic();
-    }
-    bodies_.clear();
-    first_.clear();
-    for (std::size_t c = 0; c < op.size(); ++c) {
-      const std::array<std::uint32_t, 2> bodies = op.bodies(c);
-      if (c == 0 || bodies != bodies_.back()) {
-        bodies_.push_back(bodies);
-        first_.push_back(static_cast<std::uint32_t>(c));
-      }
-    }
-    first_.push_back(static_cast<std::uint32_t>(op.size()));
-  }
-
   void sort(const Operator& op, std::span<const Impulse> impulses, const Team& team) {
     order_.resize(bodies_.size());
     team.share_each(bodies_.size(), 256, [&](std::size_t pair) {
@@ -245,7 +231,7 @@ class ContactGroups {
   /// The chunk of all bodies of a pair that move; `shared` if there are two.
   std::uint32_t chunk_of(std::size_t k) const {
     const auto [a, b] = bodies_[k];
-    return chunks_.of_pair(a, b, moves_[a], moves_[b]);
+    return chunks_.of_pair(a, b, moves_[a] != 0, moves_[b] != 0);
   }
   /// The body of a pair that is its hub.
   std::uint32_t body_of(std::size_t k, Hub hub) const { return bodies_[k][hub == Hub::b]; }
@@ -335,9 +321,11 @@ class ContactGroups {
   std::size_t body_count_ = 0;
   std::uint32_t point_count_ = 0, matrices_ = 0;  // PointPacks; groups with mass_matrices
   List<std::size_t> begin_;  // of each group in order_; at the end, the number of pairs
-  List<std::array<std::uint32_t, 2>> bodies_;
-  List<std::uint32_t> first_;  // first contact of each pair; at the end, their number
-  List<unsigned char> moves_, isotropic_;
+  // Of the operator of lay_out(): the pairs, see ContactPairs, and which bodies move (not 0).
+  std::span<const ContactPairs::Pair> bodies_;
+  std::span<const std::uint32_t> first_;
+  std::span<const unsigned char> moves_;
+  List<unsigned char> isotropic_;  // bodies
   BodyChunks chunks_;
   List<typename S::Scalar> share_;    // of each hub, see find_shares()
   List<std::uint32_t> phase_points_;  // points of each phase of a hub

@@ -22,14 +22,14 @@ class FirstFitColouring {
   static constexpr std::uint32_t hub = 48;
 
   /// @param pairs  the two bodies of each pair
-  /// @param moves  whether a body can move, one entry per body
+  /// @param moves  not 0 if a body can move, one entry per body
   /// @param is_inside function: pair -> whether it lies inside a block
   void assign(std::span<const std::array<std::uint32_t, 2>> pairs,
               std::span<const unsigned char> moves, const auto& is_inside) {
     degree_.assign(moves.size(), 0);
     used_.start(2 * moves.size());
     colour_.resize(pairs.size());
-    for (const auto& [a, b] : pairs) degree_[a] += moves[a], degree_[b] += moves[b];
+    for (const auto& [a, b] : pairs) degree_[a] += moves[a] != 0, degree_[b] += moves[b] != 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto [a, b] = pairs[k];
       if (is_hub(a) || is_hub(b)) {
