@@ -48,9 +48,6 @@ struct StateAccess {
 
   static auto& shapes(auto& assembly) { return assembly.shapes_; }
   static auto& grains(auto& assembly) { return assembly.grains_; }
-  static auto& walls(auto& assembly) { return assembly.walls_; }
-  static auto& cylinders(auto& assembly) { return assembly.cylinders_; }
-  static auto& meshes(auto& assembly) { return assembly.meshes_; }
   static auto& bodies(auto& assembly) { return assembly.bodies_; }
 
   /// Whether the contacts have springs.
@@ -88,16 +85,11 @@ struct WorldParts {
 
   auto& shapes() { return StateAccess::shapes(assembly()); }
   auto& grains() { return StateAccess::grains(assembly()); }
-  auto& walls() { return StateAccess::walls(assembly()); }
-  auto& cylinders() { return StateAccess::cylinders(assembly()); }
-  auto& meshes() { return StateAccess::meshes(assembly()); }
   auto& bodies() { return StateAccess::bodies(assembly()); }
-  /// Calls visit(body) with a reference to the body of every wall: of half-spaces, then of cylinders,
-  /// then of meshes, each in the order in which they were added.
+  /// Calls visit(body) with a reference to the body of every wall, in the order of Assembly::for_each_wall().
   void for_each_wall(const auto& visit) {
-    for (BodyId& wall : walls()) visit(wall);
-    for (auto& cylinder : cylinders()) visit(cylinder.body);
-    for (auto& mesh : meshes()) visit(mesh.body);
+    auto& assembly = this->assembly();
+    assembly.for_each_wall(assembly, [&](BodyId& body, const auto&) { visit(body); });
   }
 
   /// The energies of the springs, one per contact.

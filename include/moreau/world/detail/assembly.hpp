@@ -234,11 +234,9 @@ class Assembly {
   /// Checks that a wall at a pose does not lie across a periodic axis. Any other body passes.
   void require_walls_fit(const PeriodicCell<S>& cell, BodyId body, const Pose<S>& pose,
                          const char* function) const {
-    if (std::find(walls_.begin(), walls_.end(), body) != walls_.end())
-      cell.require_along(pose.rotation * S::Vector::UnitX(), function);
-    for (const CylinderBody<S>& cylinder : cylinders_)
-      if (cylinder.body == body)
-        cell.require_around(cylinder.shape.axis_at(pose.rotation), function);
+    for_each_wall(*this, [&](BodyId wall, const auto& shape) {
+      if (wall == body) require_fits(shape, pose, cell, function);
+    });
   }
   void require_grain(std::size_t k, const char* function) const {
     require(k < grains_.size(), function, "k", k, "must be below the number of grains");
@@ -261,19 +259,23 @@ class Assembly {
                      grain_ids_.end();
     for (const Grain& grain : grains_)
       valid = valid && contains(grain.body) && grain.shape.index() < shapes_.size();
-    for (const BodyId wall : walls_) valid = valid && contains(wall);
-    for (const CylinderBody<S>& cylinder : cylinders_) valid = valid && contains(cylinder.body);
-    for (const MeshBody<S>& mesh : meshes_) valid = valid && contains(mesh.body);
+    for_each_wall(*this, [&](BodyId wall, const auto&) { valid = valid && contains(wall); });
     return valid;
   }
   /// Adds all grains and walls to a detector.
   template <class Detector>
   void add_to(Detector& detector) const {
     for (const Grain& grain : grains_) detector.add_grain(grain.body, shape(grain.shape));
-    for (const BodyId wall : walls_) detector.add_wall(wall, HalfSpace<S>(S::Vector::UnitX()));
-    for (const CylinderBody<S>& cylinder : cylinders_)
-      detector.add_wall(cylinder.body, cylinder.shape);
-    for (const MeshBody<S>& mesh : meshes_) detector.add_wall(mesh.body, mesh.shape);
+    for_each_wall(*this, [&](BodyId wall, const auto& shape) { detector.add_wall(wall, shape); });
+  }
+  /// Calls visit(body, shape) for every wall: for half-spaces, then for cylinders, then for meshes, each in the order in
+  /// which they were added.
+  /// @param self an Assembly; if it is not constant, visit can change the body
+  static void for_each_wall(auto& self, const auto& visit) {
+    const HalfSpace<S> half_space(S::Vector::UnitX());
+    for (auto& wall : self.walls_) visit(wall, half_space);
+    for (auto& cylinder : self.cylinders_) visit(cylinder.body, cylinder.shape);
+    for (auto& mesh : self.meshes_) visit(mesh.body, mesh.shape);
   }
 
  private:
@@ -296,6 +298,17 @@ class Assembly {
     for (std::size_t i = bodies_.id.size(); i-- > 0;)
       if (!bodies_.exists(i)) add_free(bodies_.id[i]);
   }
+  static void require_fits(const HalfSpace<S>& shape, const Pose<S>& pose,
+                           const PeriodicCell<S>& cell, const char* function) {
+    cell.require_along(pose.rotation * shape.normal(), function);
+  }
+  static void require_fits(const CylinderWall<S>& shape, const Pose<S>& pose,
+                           const PeriodicCell<S>& cell, const char* function) {
+    cell.require_around(shape.axis_at(pose.rotation), function);
+  }
+  /// A cell with a mesh wall is open.
+  static void require_fits(const MeshWall<S>&, const Pose<S>&, const PeriodicCell<S>&,
+                           const char*) {}
   /// The smallest extent of the bounding box of a grain in its own frame [m]; infinite for a wall.
   Scalar width_of(std::uint32_t body) const {
     if (!(bodies_.grain_mass[body] > 0)) return std::numeric_limits<Scalar>::infinity();

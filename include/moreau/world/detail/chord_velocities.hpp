@@ -70,7 +70,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/world/bond.hpp"
 #include "moreau/world/detail/assembly.hpp"
-#include "moreau/world/detail/grain_core.hpp"
+#include "moreau/world/detail/core_touch.hpp"
 
 namespace moreau::detail {
 
@@ -128,7 +128,7 @@ class ChordVelocities {
   bool has_any() const { return !marks_.empty(); }
 
  private:
-  static constexpr bool has_sides = has_straight_sides<moreau::PartOf<ShapeT>>;
+  using Touch = CoreTouch<ShapeT>;
   /// Why the contacts of a body have chords: it is a ball that is prescribed not to turn, of which only the contacts
   /// with balls have them; it turns by prescription, or is a cylinder.
   enum Mark : unsigned char { unmarked, ball_at_rest, turns };
@@ -144,7 +144,7 @@ class ChordVelocities {
       if (bodies.rotates(i)) continue;
       if (!angular<S>(bodies.velocity[i]).isZero(0))
         set(i, turns);
-      else if (has_ball(assembly, i))
+      else if (Touch::has_ball(assembly, i))
         set(i, ball_at_rest);
     }
     for (const CylinderBody<S>& cylinder : assembly.cylinders()) set(cylinder.body.index(), turns);
@@ -153,30 +153,9 @@ class ChordVelocities {
   bool is_marked(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
                  const ContactKey& key) const {
     const unsigned char mark = std::max(marks_[contact.a], marks_[contact.b]);
-    return mark == turns ||
-           (mark == ball_at_rest && !is_bond(key) && is_ball(assembly, contact.a, key.part_a) &&
-            is_ball(assembly, contact.b, key.part_b));
-  }
-  /// Whether a part of a body is a ball.
-  static bool is_ball(const Assembly<ShapeT>& assembly, std::size_t body,
-                      [[maybe_unused]] std::size_t part) {
-    const Bodies<S>& bodies = assembly.bodies();
-    if (!(bodies.grain_mass[body] > 0)) return false;
-    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
-    if constexpr (CompoundShape<ShapeT>)
-      return core_is_point(shape.parts()[part].shape);
-    else
-      return core_is_point(shape);
-  }
-  /// Whether a body is a ball, or has one.
-  static bool has_ball(const Assembly<ShapeT>& assembly, std::size_t body) {
-    std::size_t parts = 1;
-    if constexpr (CompoundShape<ShapeT>)
-      if (assembly.bodies().grain_mass[body] > 0)
-        parts = assembly.shape_of(assembly.bodies().id[body]).parts().size();
-    for (std::size_t part = 0; part < parts; ++part)
-      if (is_ball(assembly, body, part)) return true;
-    return false;
+    return mark == turns || (mark == ball_at_rest && !is_bond(key) &&
+                             Touch::is_ball(assembly, contact.a, key.part_a) &&
+                             Touch::is_ball(assembly, contact.b, key.part_b));
   }
   static const CylinderBody<S>* cylinder_of(const Assembly<ShapeT>& assembly, std::uint32_t body) {
     for (const CylinderBody<S>& cylinder : assembly.cylinders())
@@ -184,108 +163,13 @@ class ChordVelocities {
     return nullptr;
   }
 
-  /// Radius of the rounding of a body [m]; 0 for a wall; < 0 if it is not known.
-  /// @param part    of the body
-  /// @param outward unit, in which the body is touched, world axes
-  static Scalar rounding_of(const Assembly<ShapeT>& assembly, std::uint32_t body,
-                            [[maybe_unused]] std::uint32_t part, const Vector& outward) {
-    const Bodies<S>& bodies = assembly.bodies();
-    if (!(bodies.grain_mass[body] > 0)) return 0;
-    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
-    const Vector local = bodies.pose[body].rotation.inverse() * outward;
-    if constexpr (CompoundShape<ShapeT>)
-      return core_rounding(shape.parts()[part].shape,
-                           Vector(shape.parts()[part].pose.rotation.inverse() * local));
-    else
-      return core_rounding(shape, local);
-  }
-  /// From the point of the core of a body to the contact point [m]; of a grain that moves and whose core is not known
-  /// the whole lever.
-  /// @param part    of the body
-  /// @param outward unit normal out of the body
-  /// @param lever   from the centre of the body to the contact point [m]
-  [[gnu::cold, gnu::noinline]] static Vector from_core(const Assembly<ShapeT>& assembly,
-                                                       std::uint32_t body, std::uint32_t part,
-                                                       const Vector& outward, const Vector& lever,
-                                                       Scalar gap) {
-    const Scalar radius = rounding_of(assembly, body, part, outward);
-    if (radius < 0 && assembly.bodies().rotates(body)) return lever;
-    return (std::max(Scalar(0), radius) + gap / 2) * outward;
-  }
-  /// How a body is touched; its side in world axes.
-  [[gnu::cold, gnu::noinline]] static CoreFeature<Vector> feature_of(
-      const Assembly<ShapeT>& assembly, std::uint32_t body, [[maybe_unused]] std::uint32_t part,
-      bool is_edge, const Vector& outward) {
-    CoreFeature<Vector> feature;
-    const Bodies<S>& bodies = assembly.bodies();
-    if (!(bodies.grain_mass[body] > 0)) return feature;
-    const ShapeT& shape = assembly.shape_of(bodies.id[body]);
-    if constexpr (CompoundShape<ShapeT>) {
-      const auto rotation = bodies.pose[body].rotation * shape.parts()[part].pose.rotation;
-      feature =
-          core_feature(shape.parts()[part].shape, is_edge, Vector(rotation.inverse() * outward));
-      feature.side = rotation * feature.side;
-    } else {
-      const auto& rotation = bodies.pose[body].rotation;
-      feature = core_feature(shape, is_edge, Vector(rotation.inverse() * outward));
-      feature.side = rotation * feature.side;
-    }
-    return feature;
-  }
-  /// The two bodies of a contact. One of them, the wall, is a half-space, a mesh wall or a grain whose rotation is
-  /// prescribed.
-  struct Touch {
-    CoreFeature<Vector> feature_a, feature_b;
-    Vector core_a, core_b;          // from the core of the body to the contact point [m]
-    Scalar rounding_a, rounding_b;  // see rounding_of()
-    bool wall_is_a;
-    bool has_face, owner_is_a;  // whether a face makes the contact, and whose
-    bool side_is_a;             // whose side is followed: that of the wall, if both have one
-    Scalar rounding_of_grain() const { return wall_is_a ? rounding_b : rounding_a; }
-    Scalar rounding_of_wall() const { return wall_is_a ? rounding_a : rounding_b; }
-    bool has_side() const { return !feature_a.side.isZero(0) || !feature_b.side.isZero(0); }
-    bool has_two_sides() const { return !feature_a.side.isZero(0) && !feature_b.side.isZero(0); }
-  };
-  MOREAU_INLINED static Touch touch_of(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
-                                       const ContactKey& key) {
-    using Kind = FeatureKey::Kind;
-    const std::uint32_t a = contact.a, b = contact.b;
-    const Vector normal = contact.frame.col(0);
-    const auto kind = key.feature.kind();
-    Touch touch;
-    if constexpr (has_sides) {
-      touch.feature_a = feature_of(assembly, a, key.part_a,
-                                   kind == Kind::edge_edge || kind == Kind::edge_vertex, normal);
-      touch.feature_b = feature_of(assembly, b, key.part_b,
-                                   kind == Kind::edge_edge || kind == Kind::vertex_edge, -normal);
-    }
-    touch.core_a = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
-    touch.core_b = from_core(assembly, b, key.part_b, -normal, contact.lever_b, contact.gap);
-    touch.rounding_a = rounding_of(assembly, a, key.part_a, normal);
-    touch.rounding_b = rounding_of(assembly, b, key.part_b, -normal);
-    touch.wall_is_a = !assembly.bodies().rotates(a);
-    const auto face_of_b = vertex_on_face(S{});
-    const auto face_of_a = FeatureKey(face_of_b, 0, 0).swapped().kind();
-    const bool face_a = touch.feature_a.is_known ? touch.feature_a.is_face : kind == face_of_a,
-               face_b = touch.feature_b.is_known ? touch.feature_b.is_face : kind == face_of_b;
-    // A contact without a face has that of the wall, unless the features that touch are known.
-    const Scalar of_wall = touch.rounding_of_wall();
-    const bool is_grain = assembly.bodies().grain_mass[touch.wall_is_a ? a : b] > 0;
-    touch.has_face = face_a || face_b || of_wall < 0 || !is_grain ||
-                     (of_wall == 0 && !(touch.rounding_of_grain() > 0) && !touch.has_two_sides());
-    touch.owner_is_a =
-        face_a != face_b ? face_a : kind == face_of_a || (kind != face_of_b && touch.wall_is_a);
-    touch.side_is_a =
-        touch.wall_is_a ? !touch.feature_a.side.isZero(0) : touch.feature_b.side.isZero(0);
-    return touch;
-  }
   /// Of a half-space, a mesh wall or a grain whose rotation is prescribed. The normal turns at the rate tilt x n + swerve.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
                                                         const Contact<S>& contact,
                                                         const ContactKey& key, Scalar step) {
     const Bodies<S>& bodies = assembly.bodies();
     const Vector normal = contact.frame.col(0);
-    const Touch touch = touch_of(assembly, contact, key);
+    const Touch touch = Touch::of(assembly, contact, key);
     const bool face = touch.has_face;
     const Vector lever_a =
                      contact.lever_a - (face && touch.owner_is_a ? touch.core_b : touch.core_a),
@@ -303,7 +187,7 @@ class ChordVelocities {
     if (face) {
       is_of_wall = touch.owner_is_a == touch.wall_is_a;
       tilt = touch.owner_is_a ? of_a : of_b;
-    } else if (has_sides && touch.has_side()) {
+    } else if (Touch::has_sides && touch.has_side()) {
       is_of_wall = touch.side_is_a == touch.wall_is_a;
       follow_side(touch, normal, of_a, of_b, slip, apart, tilt, swerve);
     } else if (distance > 0) {
@@ -333,7 +217,7 @@ class ChordVelocities {
                                          const Angular& of_a, const Angular& of_b,
                                          const Vector& slip, const Vector& apart, Angular& tilt,
                                          Vector& swerve) {
-    if constexpr (has_sides) {
+    if constexpr (Touch::has_sides) {
       const bool is_a = touch.side_is_a;
       const Vector &side = is_a ? touch.feature_a.side : touch.feature_b.side,
                    &other = is_a ? touch.feature_b.side : touch.feature_a.side;
@@ -369,7 +253,8 @@ class ChordVelocities {
     const Bodies<S>& bodies = assembly.bodies();
     const std::uint32_t a = contact.a, b = contact.b;
     const Vector normal = contact.frame.col(0);
-    const Vector shift = from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
+    const Vector shift =
+        Touch::from_core(assembly, a, key.part_a, normal, contact.lever_a, contact.gap);
     const Vector lever_a = contact.lever_a - shift, lever_b = contact.lever_b - shift;
     const Angular of_a = angular<S>(bodies.velocity[a]), of_b = angular<S>(bodies.velocity[b]);
     const Angular axis = cylinder.shape.axis_at(bodies.pose[b].rotation);
@@ -389,7 +274,7 @@ class ChordVelocities {
     // Only a wall that turns does work on a grain that rests on it.
     Vector sum = of_b.isZero(0) ? Vector(Vector::Zero())
                                 : Vector(chord_excess<S>(of_b, lever_b, step) - own);
-    if (radius > contact.gap && rounding_of(assembly, a, key.part_a, normal) > 0) {
+    if (radius > contact.gap && Touch::rounding_of(assembly, a, key.part_a, normal) > 0) {
       const Vector around = S::spin(axis, normal);
       const Scalar rate = -around.dot(slip) / (radius - contact.gap);  // of the core about the axis
       // The chord is that of the core: a ball that rolls on the spot has none.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <type_traits>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/motion/bodies.hpp"
@@ -16,6 +17,18 @@ typename S::Scalar gap_rounding(const Bodies<S>& bodies, const Contact<S>& conta
   return 2 * std::numeric_limits<Scalar>::epsilon() *
          (length(bodies.pose[contact.a].position) + length(bodies.pose[contact.b].position) +
           length(contact.lever_a) + length(contact.lever_b));
+}
+
+/// Whether an open gap is no larger than the rounding of the positions. In single precision a step would close it at a
+/// velocity that is not small against those of bodies at rest, and the points of a face would not act alike.
+template <class S>
+bool is_gap_rounding([[maybe_unused]] const Bodies<S>& bodies,
+                     [[maybe_unused]] const Contact<S>& contact,
+                     [[maybe_unused]] typename S::Scalar gap) {
+  if constexpr (std::is_same_v<typename S::Scalar, float>)
+    return gap > 0 && gap <= gap_rounding<S>(bodies, contact);
+  else
+    return false;
 }
 
 }  // namespace moreau::detail

@@ -233,16 +233,6 @@ class ImpulseDynamics {
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 
-  /// Whether an open gap is no larger than the rounding of the positions. In single precision a step would close it at a
-  /// velocity that is not small against those of bodies at rest, and the points of a face would not act alike.
-  static bool is_rounding([[maybe_unused]] const Context& context,
-                          [[maybe_unused]] const Contact<S>& contact, [[maybe_unused]] Scalar gap) {
-    if constexpr (std::is_same_v<Scalar, float>) {
-      return gap > 0 && gap <= gap_rounding<S>(context.bodies, contact);
-    } else {
-      return false;
-    }
-  }
   /// @returns how many contacts have a predecessor
   std::size_t warm_start(const Context& context) {
     std::size_t found = 0;
@@ -448,7 +438,7 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   const auto gap_of = [&context, this](std::size_t c) {
     const Contact<S>& contact = context.contacts.points[c];
     const Scalar gap = contact.gap + correction_.gap_change(contact);
-    return is_rounding(context, contact, gap) ? Scalar(0) : gap;
+    return is_gap_rounding(context.bodies, contact, gap) ? Scalar(0) : gap;
   };
   const Scalar approach =
       laws_.offset_velocities(context, std::span<const Twist>(velocities_.before), problem_,
