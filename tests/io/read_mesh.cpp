@@ -674,6 +674,35 @@ TEST_CASE("quadrilaterals are divided, groups are read one by one") {
   CHECK(read_mesh(path, 1.0).facets.size() == 16);
 }
 
+TEST_CASE(
+    "a file of many groups: each has its own vertices and no memory for those of the others") {
+  const TemporaryFolder folder("mesh");
+  std::ostringstream text;
+  constexpr int count = 300;
+  for (int k = 0; k < count; ++k) {
+    text << "o stone" << k << "\nv " << k << " 0 0\nv " << k + 0.5 << " 0 0\nv " << k << " 1 0\nv "
+         << k << " 0 1\n";
+    for (const char* corners : {"-4 -2 -3", "-4 -3 -1", "-3 -2 -1", "-4 -1 -2"})
+      text << "f " << corners << '\n';
+  }
+  const auto path = write(folder, "many.obj", text.str());
+  const auto groups = read_mesh_groups(path, 1.0);
+  REQUIRE(groups.size() == std::size_t(count));
+  std::size_t memory = 0;
+  for (const auto& group : groups) {
+    CHECK(group.mesh.vertices.size() == 4);
+    CHECK(volume_of(group.mesh) == doctest::Approx(0.5 / 6));
+    memory += group.mesh.vertices.capacity();
+  }
+  CHECK(memory <= 8 * std::size_t(count));
+  const auto pieces = pieces_of(read_mesh(path, 1.0));
+  REQUIRE(pieces.size() == std::size_t(count));
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    CHECK(pieces[k].vertices == groups[k].mesh.vertices);
+    CHECK(pieces[k].facets == groups[k].mesh.facets);
+  }
+}
+
 TEST_CASE("a grain of the groups of a file, with the mass properties of a mesh") {
   const TemporaryFolder folder("mesh");
   const auto cube = [](const char* name, double x, int first) {  // in millimetres

@@ -130,7 +130,11 @@ TEST_CASE("bad arguments are errors") {
   world.add_grain(world.add_shape(Disk<double>(0.1)), {}, 1000);
   rendering::Picture none;
   none.height = 0;
-  CHECK_THROWS_AS(write_picture(folder / "a.png", world, none), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(write_picture(folder / "a.png", world, none),
+                       "write_picture: picture.height = 0 must be > 0", std::invalid_argument);
+  none.width = -4;
+  CHECK_THROWS_WITH_AS(write_picture(folder / "a.png", world, none),
+                       "write_picture: picture.width = -4 must be > 0", std::invalid_argument);
   CHECK_THROWS_WITH_AS(write_picture(folder / "missing" / "a.png", world),
                        doctest::Contains("missing"), std::system_error);
 }

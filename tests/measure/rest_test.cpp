@@ -125,5 +125,8 @@ TEST_CASE_TEMPLATE("the slope of a heap", ShapeT, Disk<>, Ball<>) {
   CHECK(found.error < 1e-12);
   CHECK_THROWS_WITH(heap_slope(surface, axis, 1, 2),
                     doctest::Contains("heap_slope: points = 0 must be at least 2"));
+  CHECK_THROWS_WITH(heap_slope(surface, axis, std::nan(""), 2),
+                    doctest::Contains("heap_slope: from = nan m must be a number"));
+  CHECK_THROWS_WITH(heap_slope(surface, axis, 0.05, std::nan("")), doctest::Contains("to = nan"));
   CHECK_THROWS_AS(free_surface(heap, 0), std::invalid_argument);
 }

@@ -2,18 +2,26 @@
 #include "moreau/measure/solid_fraction.hpp"
 
 #include <array>
+#include <concepts>
 #include <doctest/doctest.h>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/measure/region.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/capsule.hpp"
+#include "moreau/shape/cylinder.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/shape/rounded.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "types.hpp"
@@ -429,4 +437,37 @@ TEST_CASE("solid fraction of grains of several types in a simulation") {
         doctest::Approx((ball + cube) / 2));
   CHECK(solid_fraction(world, box_of<double>(0.5, 0, 0, 1.5, 1, 1)) ==
         doctest::Approx((ball + cube) / 2));
+}
+
+TEST_CASE_TEMPLATE("curved grains other than balls count as a whole, and in part", Shape, Capsule<>,
+                   Cylinder<>, Rounded<Polyhedron<>>, Rounded<Polygon<>>) {
+  using S = SpaceOf<Shape>;
+  using Vector = typename S::Vector;
+  const Shape shape = [] {
+    if constexpr (std::same_as<Shape, Capsule<>> || std::same_as<Shape, Cylinder<>>)
+      return Shape(0.3, 0.2);
+    else
+      return Shape(regular_shape<std::remove_cvref_t<decltype(std::declval<Shape>().core())>>(0.5),
+                   0.1);
+  }();
+  using Law = SignoriniCoulomb<>;
+  Simulation<Shape, Law> world(0.5, Materials<Law>(1, Law(0.4)));
+  const Vector turn = 0.3 * Vector::Ones();
+  typename S::Angular spin = S::Angular::Constant(0.4);
+  world.add_grain(world.add_shape(shape), {turn, S::exp(spin)}, 1);
+  const Aabb<S> all{Vector::Constant(-2), Vector::Constant(2)};
+  const double size = volume(all);
+  CHECK(solid_fraction(world, all) * size == doctest::Approx(shape.volume()).epsilon(1e-12));
+  // Both halves of a body with a centre of symmetry, and the parts of any body.
+  Aabb<S> left = all, right = all;
+  left.upper[0] = right.lower[0] = 0.3;
+  const double of_left = solid_fraction(world, left) * volume(left),
+               of_right = solid_fraction(world, right) * volume(right);
+  CHECK(of_left + of_right == doctest::Approx(shape.volume()).epsilon(1e-12));
+  if constexpr (std::same_as<Shape, Capsule<>> || std::same_as<Shape, Cylinder<>>)
+    CHECK(of_left == doctest::Approx(of_right).epsilon(0.01));  // of the inscribed mesh
+  left.upper[0] = right.lower[0] = 0.45;
+  CHECK(solid_fraction(world, left) * volume(left) + solid_fraction(world, right) * volume(right) ==
+        doctest::Approx(shape.volume()).epsilon(1e-12));
+  CHECK(measure_region(world, 1e-3, all).grains == 1);
 }

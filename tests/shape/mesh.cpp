@@ -90,6 +90,12 @@ TEST_CASE_TEMPLATE("mass properties of a mesh are those of its polytope", S, Pla
 
 TEST_CASE_TEMPLATE("a closed surface in every form", S, Plane, Volume) {
   CHECK(fault(pebble_mesh<S>(0.01, 5, 1)) == "none");
+  CHECK_THROWS_WITH(pebble_mesh<S>(-0.01, 5, 1), doctest::Contains("pebble_mesh: radius = -0.01"));
+  CHECK_THROWS_WITH(pebble_mesh<S>(0.01, -1, 1), doctest::Contains("pebble_mesh: dents = -1"));
+  CHECK_THROWS_WITH(ballast_mesh<S>(0, 5, 1), doctest::Contains("ballast_mesh: radius = 0"));
+  CHECK_THROWS_WITH(ballast_mesh<S>(0.01, -1, 1), doctest::Contains("ballast_mesh: lumps = -1"));
+  CHECK_THROWS_WITH(star_mesh<S>([](const auto& u) { return u[0]; }),
+                    doctest::Contains("star_mesh: radius"));
   CHECK(fault(tetrapod_mesh<S>(0.02, 0.006)) == "none");
   CHECK(fault(ballast_mesh<S>(0.02, 3, 7)) == "none");
   CHECK(volume_of(pebble_mesh<S>(1, 0, 1, 5)) ==

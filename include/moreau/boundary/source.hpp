@@ -43,7 +43,8 @@ struct SourceOptions {
   std::vector<ShapeId> shapes;          ///< drawn at random, each with the same probability
   typename S::Scalar density = 0;       ///< [kg/m^3], in the plane [kg/m^2], > 0
   MaterialId material = MaterialId(0);  ///< of the surface
-  typename S::Vector velocity = S::Vector::Zero();  ///< of new grains, world axes [m/s]
+  typename S::Vector velocity =
+      S::Vector::Zero();  ///< of new grains, world axes [m/s]; relative to a cell that deforms
   /// Grains per second [1/s], > 0; infinite: as many as find room.
   double rate = std::numeric_limits<double>::infinity();
   /// The number of grains in the simulation up to which grains are added.

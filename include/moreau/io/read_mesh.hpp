@@ -91,11 +91,9 @@ void require_near_origin(const TriangleMesh<T>& mesh, int digits, const std::str
   throw std::runtime_error(message.str());
 }
 
-/// The triangles of a group of a file, or of all groups.
-/// @param group its number; none: all
+/// The vertices and triangles of a file. Their distance from the origin is not checked.
 template <std::floating_point T>
-TriangleMesh<T> mesh_of_file(const MeshFile& file, T unit, const std::string& path,
-                             std::uint32_t group = ~0U) {
+TriangleMesh<T> mesh_of_file(const MeshFile& file, T unit, const std::string& path) {
   TriangleMesh<T> mesh;
   for (const Eigen::Vector3d& x : file.vertices) {
     mesh.vertices.push_back((double(unit) * x).template cast<T>());
@@ -103,10 +101,7 @@ TriangleMesh<T> mesh_of_file(const MeshFile& file, T unit, const std::string& pa
       throw std::runtime_error(path + ": vertex " + std::to_string(mesh.vertices.size() - 1) +
                                " is too large for the scalar type");
   }
-  for (std::size_t t = 0; t < file.triangles.size(); ++t)
-    if (group == ~0U || file.group_of[t] == group) mesh.facets.push_back(file.triangles[t]);
-  if (group != ~0U) drop_unused_vertices(mesh);
-  require_near_origin(mesh, file.digits, path);
+  mesh.facets.assign(file.triangles.begin(), file.triangles.end());
   return mesh;
 }
 
@@ -132,7 +127,9 @@ TriangleMesh<T> read_mesh(const std::filesystem::path& path, T unit) {
   detail::require_unit(unit, "read_mesh");
   detail::MeshFile file = detail::read_mesh_file(path, "read_mesh");
   detail::merge_corners(file);
-  return detail::mesh_of_file<T>(file, unit, path.string());
+  TriangleMesh<T> mesh = detail::mesh_of_file<T>(file, unit, path.string());
+  detail::require_near_origin(mesh, file.digits, path.string());
+  return mesh;
 }
 
 /// Reads each group or object of a file into a mesh of its own: the convex parts of a concave grain
@@ -147,10 +144,14 @@ std::vector<MeshGroup<T>> read_mesh_groups(const std::filesystem::path& path, T 
   detail::require_unit(unit, "read_mesh_groups");
   detail::MeshFile file = detail::read_mesh_file(path, "read_mesh_groups");
   detail::merge_corners(file);
+  const TriangleMesh<T> mesh = detail::mesh_of_file<T>(file, unit, path.string());
   std::vector<MeshGroup<T>> groups;
-  for (std::uint32_t g = 0; g < file.groups.size(); ++g) {
-    TriangleMesh<T> mesh = detail::mesh_of_file<T>(file, unit, path.string(), g);
-    if (!mesh.facets.empty()) groups.push_back({file.groups[g], std::move(mesh)});
+  auto meshes =
+      detail::divided(mesh, std::span<const std::uint32_t>(file.group_of), file.groups.size());
+  for (std::size_t g = 0; g < meshes.size(); ++g) {
+    if (meshes[g].facets.empty()) continue;
+    detail::require_near_origin(meshes[g], file.digits, path.string());
+    groups.push_back({file.groups[g], std::move(meshes[g])});
   }
   return groups;
 }

@@ -54,7 +54,7 @@ class VtkWriter {
 
   /// Writes the grains with the arrays `id` (the index k), `size` (circumdiameter [m]), `velocity`
   /// of the centre of mass [m/s], `speed` [m/s] and `spin` (magnitude of the angular velocity
-  /// [rad/s]).
+  /// [rad/s]): of velocity_of, so of a simulation whose cell deforms relative to the cell.
   /// @param shape_of,pose_of,velocity_of functions: k -> shape, pose [m] and twist (v, w) [m/s,
   ///                                     rad/s] of grain k, world axes
   /// @throws std::invalid_argument if a pose is not finite

@@ -244,17 +244,15 @@ Aabb<S> turn_vertices(const Shape& shape, const Pose<S>& pose, ClipWorkspace<S>&
   return box;
 }
 
-/// The volume of the part of a polytope inside the box `limits`. Only those planes of the box are
-/// used that cut the polytope.
-/// @param around  bounding box of workspace.vertices, the vertices of the polytope [m]
-/// @param limits  relative to the grain's centre, world axes [m]
-template <Polytope Shape, class S>
-typename S::Scalar volume_between(const Shape& shape, const Aabb<S>& around, const Aabb<S>& limits,
+/// The volume of the part inside the box `limits` of the body whose surface is workspace.rings, which are changed. Only
+/// those planes of the box are used that cut the body.
+/// @param around  bounding box of the surface [m]
+/// @param limits  in the axes of the surface [m]
+template <class S>
+typename S::Scalar volume_between(const Aabb<S>& around, const Aabb<S>& limits,
                                   ClipWorkspace<S>& workspace) {
   using Scalar = typename S::Scalar;
   Rings<S>& rings = workspace.rings;
-  rings.clear();
-  append_surface(shape, std::span<const typename S::Vector>(workspace.vertices), rings);
   const auto cut = [&](const AxisPlane<S>& plane) {
     clip(rings, plane, workspace.kept, workspace.caps);
     std::swap(rings, workspace.kept);
@@ -288,7 +286,10 @@ typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
   const Aabb<S> around = detail::turn_vertices(shape, pose, workspace);
   if (limits.contains(around)) return shape.volume();
   if (!limits.overlaps(around)) return 0;
-  return detail::volume_between(shape, around, limits, workspace);
+  workspace.rings.clear();
+  detail::append_surface(shape, std::span<const typename S::Vector>(workspace.vertices),
+                         workspace.rings);
+  return detail::volume_between(around, limits, workspace);
 }
 
 }  // namespace moreau

@@ -77,7 +77,8 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
-/// Kinetic energy of all grains of a simulation [J]. Grains whose motion is prescribed count too.
+/// Kinetic energy of all grains of a simulation [J]. Grains whose motion is prescribed count too. In a cell that deforms, of
+/// the velocities relative to the cell.
 /// @param simulation a Simulation
 template <class Simulation>
 KineticEnergy<typename Simulation::S> kinetic_energy(const Simulation& simulation) {

@@ -63,10 +63,13 @@ struct HeapSlope {
 /// @param surface  of free_surface()
 /// @param axis     any point of the vertical axis through the middle of the heap, world axes [m]
 /// @param from,to  distances of the points that are used [m]
-/// @throws std::invalid_argument if fewer than two points, or points at one distance only, are used
+/// @throws std::invalid_argument if a distance is not a number, or if fewer than two points, or points at one distance
+///         only, are used
 template <class Vector>
 HeapSlope heap_slope(const std::vector<Vector>& surface, const Vector& axis, double from,
                      double to) {
+  require(!std::isnan(from), "heap_slope", "from", from, "m must be a number");
+  require(!std::isnan(to), "heap_slope", "to", to, "m must be a number");
   const Eigen::Index up = axis.size() - 1;
   std::vector<std::array<double, 2>> used;  // distance, height
   double mean[2] = {0, 0};

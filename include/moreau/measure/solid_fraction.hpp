@@ -6,13 +6,60 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/measure/clip.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/detail/clip_sphere.hpp"
+#include "moreau/mesh/surface_mesh.hpp"
 
 namespace moreau {
+
+namespace detail {
+
+/// The share of the volume inside a surface that lies in a control volume [-].
+/// @param mesh  in body axes [m]
+template <class S>
+typename S::Scalar share_between(const SurfaceMesh<S>& mesh, const Pose<S>& pose,
+                                 const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
+  Rings<S>& rings = workspace.rings;
+  rings.clear();
+  Aabb<S> around;
+  std::size_t corner = 0;
+  for (const std::int32_t end : mesh.ends) {
+    for (; corner < std::size_t(end); ++corner) {
+      rings.points.push_back(pose.rotation * mesh.points[std::size_t(mesh.corners[corner])]);
+      around.merge(rings.points.back());
+    }
+    rings.close();
+  }
+  const typename S::Scalar whole = enclosed_volume(rings);
+  const Aabb<S> limits{control_volume.lower - pose.position, control_volume.upper - pose.position};
+  return whole > 0 ? volume_between(around, limits, workspace) / whole : 0;
+}
+
+}  // namespace detail
+
+/// The volume of that part of a capsule, a cylinder, a rounded shape or a convex shape of one's own with volume() which
+/// lies in a control volume [m^D]. Exact for a grain that lies in the control volume as a whole. Of a grain that the control
+/// volume cuts, the part is that of a mesh with 642 points (in the plane 64) inscribed in its surface,
+/// to about 1 % of the grain.
+/// Arguments and exceptions are those of clipped_volume of a polytope (measure/clip.hpp).
+template <ConvexShape Shape, class S = SpaceOf<Shape>>
+requires HasVolume<Shape> &&(!Polytope<Shape> && !CompoundShape<Shape> &&
+                             !requires(const Shape& shape) { shape.visit([](const auto&) {}); })
+    typename S::Scalar clipped_volume(const Shape& shape, const Pose<S>& pose,
+                                      const Aabb<S>& control_volume, ClipWorkspace<S>& workspace) {
+  require_control_volume(control_volume, "clipped_volume");
+  const Aabb<S> bounds = shape.bounding_box(pose);
+  if (control_volume.contains(bounds)) return shape.volume();
+  if (!control_volume.overlaps(bounds)) return 0;
+  static const SurfaceMesher<S> mesher(3);
+  SurfaceMesh<S> mesh;
+  mesher.mesh(shape, mesh);
+  return shape.volume() * detail::share_between(mesh, pose, control_volume, workspace);
+}
 
 /// The volume of that part of a compound grain which lies in a control volume, in the plane the area
 /// [m^D]: the sum over its parts. If parts overlap, the sum is multiplied by the volume of the grain

@@ -136,6 +136,41 @@ std::size_t drop_repeated_facets(FacetMesh<S>& mesh) {
 template <std::floating_point T>
 std::size_t drop_flat_triangles(TriangleMesh<T>& mesh);
 
+namespace detail {
+
+/// Divides the facets of a mesh among several meshes. Each gets its own vertices, in the order of the mesh.
+/// @param number  of the new mesh of each facet
+template <class S>
+std::vector<FacetMesh<S>> divided(const FacetMesh<S>& mesh, std::span<const std::uint32_t> number,
+                                  std::size_t count) {
+  std::vector<FacetMesh<S>> meshes(count);
+  std::vector<std::size_t> facets(count + 1, 0);  // facets of the meshes before each
+  for (const std::uint32_t n : number) ++facets[n + 1];
+  for (std::size_t n = 0; n < count; ++n) facets[n + 1] += facets[n];
+  std::vector<std::uint32_t> in_order(number.size());
+  std::vector<std::size_t> next(facets.begin(), facets.end() - 1);
+  for (std::size_t f = 0; f < number.size(); ++f) in_order[next[number[f]]++] = std::uint32_t(f);
+  std::vector<std::uint32_t> used, renamed(mesh.vertices.size());
+  for (std::size_t n = 0; n < count; ++n) {
+    used.clear();
+    for (std::size_t k = facets[n]; k < facets[n + 1]; ++k)
+      for (const std::uint32_t v : mesh.facets[in_order[k]]) used.push_back(v);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t k = 0; k < used.size(); ++k) {
+      renamed[used[k]] = k;
+      meshes[n].vertices.push_back(mesh.vertices[used[k]]);
+    }
+    for (std::size_t k = facets[n]; k < facets[n + 1]; ++k) {
+      auto& facet = meshes[n].facets.emplace_back(mesh.facets[in_order[k]]);
+      for (std::uint32_t& v : facet) v = renamed[v];
+    }
+  }
+  return meshes;
+}
+
+}  // namespace detail
+
 /// Divides a mesh into its connected pieces, in the order of their first facets.
 /// @throws std::invalid_argument if a corner is out of range
 template <class S>
@@ -144,17 +179,11 @@ std::vector<FacetMesh<S>> pieces_of(const FacetMesh<S>& mesh) {
     for (const std::uint32_t v : facet)
       require(v < mesh.vertices.size(), "pieces_of", "corner", v, "must be the index of a vertex");
   const auto piece = piece_of_each_facet(mesh);
-  std::vector<std::size_t> number(mesh.facets.size());
-  std::vector<FacetMesh<S>> pieces;
-  for (std::size_t f = 0; f < piece.size(); ++f) {
-    if (piece[f] == f) {
-      number[f] = pieces.size();
-      pieces.push_back({mesh.vertices, {}});
-    }
-    pieces[number[piece[f]]].facets.push_back(mesh.facets[f]);
-  }
-  for (auto& part : pieces) drop_unused_vertices(part);
-  return pieces;
+  std::vector<std::uint32_t> number(mesh.facets.size());
+  std::uint32_t count = 0;
+  for (std::size_t f = 0; f < piece.size(); ++f)
+    number[f] = piece[f] == f ? count++ : number[piece[f]];
+  return detail::divided(mesh, number, count);
 }
 
 namespace detail {

@@ -39,10 +39,10 @@ class Image {
  public:
   /// All pixels have the colour of the background.
   /// @throws std::invalid_argument for a width or height that is not positive
-  Image(int width, int height, const Color& background)
-      : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {
-    require(width > 0 && height > 0, "Image", "width", width, "and height must be > 0");
-    std::fill(pixels_.begin(), pixels_.end(), background);
+  Image(int width, int height, const Color& background) : width_(width), height_(height) {
+    require(width > 0, "Image", "width", width, "must be > 0");
+    require(height > 0, "Image", "height", height, "must be > 0");
+    pixels_.assign(std::size_t(width) * std::size_t(height), background);
   }
   int width() const { return width_; }    ///< number of columns
   int height() const { return height_; }  ///< number of rows

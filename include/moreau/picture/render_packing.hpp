@@ -278,7 +278,7 @@ Image render_force_chains(const Aabb<S>& box, std::span<const ContactSegment<S>>
   }
   Drawing drawing = detail::drawing_of(box, picture);
   detail::draw_chains<S>(shown, 8, drawing);
-  detail::draw_walls(box, drawing);
+  if (picture.walls) detail::draw_walls(box, drawing);
   return drawing.finished();
 }
 

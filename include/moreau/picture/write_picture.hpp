@@ -193,6 +193,8 @@ void write_picture(const std::filesystem::path& path, const Simulation& simulati
                    const ColorOf& color_of, const rendering::Picture& picture = {}) {
   require(simulation.grain_count() > 0, "write_picture", "simulation.grain_count()",
           simulation.grain_count(), "must be > 0");
+  require(picture.width > 0, "write_picture", "picture.width", picture.width, "must be > 0");
+  require(picture.height > 0, "write_picture", "picture.height", picture.height, "must be > 0");
   rendering::write_png(
       path, rendering::detail::render(simulation, color_of, picture, typename Simulation::S{}));
 }

@@ -23,7 +23,7 @@ namespace moreau {
 /// @param radius   function: unit direction -> distance of the surface from the origin [m], > 0
 /// @param fineness resolution, 0 to 6: 20 * 4^fineness triangles, in the plane 8 * 2^fineness
 ///                 segments
-/// @throws std::invalid_argument if the fineness is not in this range
+/// @throws std::invalid_argument if the fineness is not in this range, or a distance is not finite and > 0
 template <EuclideanSpace S, class Radius>
 FacetMesh<S> star_mesh(const Radius& radius, int fineness = 3) {
   SurfaceMesh<S> sphere;
@@ -31,7 +31,10 @@ FacetMesh<S> star_mesh(const Radius& radius, int fineness = 3) {
   FacetMesh<S> mesh;
   for (const auto& direction : sphere.points) {
     const typename S::Vector unit = direction.normalized();
-    mesh.vertices.push_back(radius(unit) * unit);
+    const auto distance = radius(unit);
+    require(std::isfinite(distance) && distance > 0, "star_mesh", "radius", distance,
+            "m must be finite and > 0");
+    mesh.vertices.push_back(distance * unit);
   }
   // A face of the sphere is a triangle; in the plane the outline is one face. Both are cut into
   // facets with D corners, beginning at each corner of the face in the plane.
@@ -85,6 +88,8 @@ template <EuclideanSpace S>
 FacetMesh<S> pebble_mesh(typename S::Scalar radius, int dents, std::uint64_t seed,
                          int fineness = 3) {
   using T = typename S::Scalar;
+  require_positive(radius, "pebble_mesh", "radius");
+  require(dents >= 0, "pebble_mesh", "dents", dents, "must be >= 0");
   std::mt19937_64 random(seed);
   std::vector<typename S::Vector> at;
   for (int k = 0; k < dents; ++k) at.push_back(detail::even_direction<S>(random));
@@ -129,6 +134,8 @@ template <EuclideanSpace S>
 FacetMesh<S> ballast_mesh(typename S::Scalar radius, int lumps, std::uint64_t seed,
                           int fineness = 4) {
   using T = typename S::Scalar;
+  require_positive(radius, "ballast_mesh", "radius");
+  require(lumps >= 0, "ballast_mesh", "lumps", lumps, "must be >= 0");
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> offset(0.75, 1);
   struct Plane {
