@@ -2,8 +2,11 @@
 // Sources add grains where there is room, sinks remove them.
 #include <doctest/doctest.h>
 #include <limits>
+#include <random>
+#include <set>
 #include <vector>
 
+#include "moreau/boundary/detail/point_grid.hpp"
 #include "moreau/boundary/sink.hpp"
 #include "moreau/boundary/source.hpp"
 #include "moreau/detect/collide.hpp"
@@ -55,6 +58,32 @@ struct Shaft {
 };
 
 }  // namespace
+
+TEST_CASE_TEMPLATE("a grid of points finds all that are near", S, Space<2, double>,
+                   Space<3, float>) {
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<T> number(-1, 1);
+  const auto draw = [&] { return Vector(Vector::NullaryExpr([&] { return number(random); })); };
+  detail::PointGrid<S> grid;
+  constexpr T reach = T(0.1);
+  grid.start(reach);
+  std::vector<Vector> points;
+  for (int k = 0; k < 400; ++k) {
+    points.push_back(draw());
+    grid.add(points.back());
+    const Vector x = draw();
+    std::set<std::uint32_t> found;
+    CHECK_FALSE(grid.any_near(x, [&](std::uint32_t number) {
+      CHECK(found.insert(number).second);  // once
+      return false;
+    }));
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+      if ((points[i] - x).norm() < reach) CHECK(found.count(i) == 1);
+    CHECK(grid.any_near(points.front(), [](std::uint32_t number) { return number == 0; }));
+  }
+}
 
 TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", ShapeT,
                    MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {

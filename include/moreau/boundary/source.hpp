@@ -21,10 +21,12 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/boundary/detail/point_grid.hpp"
 #include "moreau/boundary/sink.hpp"
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
+#include "moreau/core/neighbour_cells.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -137,13 +139,25 @@ class Source {
   /// Collects the grains that a new grain could overlap: in a periodic cell all grains.
   void find_obstacles(const auto& simulation) {
     obstacles_.clear();
+    large_.clear();
+    Scalar widest = 0;
+    for (const ShapeId shape : options_.shapes)
+      widest = std::max(widest, circumradius(simulation.shape(shape)));
+    most_ = 4 * widest;
+    grid_.start(widest + most_);
     for (const BodyId grain : simulation.grains()) {
       const auto& shape = simulation.shape(grain);
       const Pose<S>& pose = simulation.pose(grain);
       const Obstacle obstacle{shape.bounding_box(pose), pose.position, circumradius(shape)};
       if (!simulation.cell().is_open() || options_.region.overlaps(obstacle.box))
-        obstacles_.push_back(obstacle);
+        add_obstacle(simulation, obstacle);
     }
+  }
+  void add_obstacle(const auto& simulation, const Obstacle& obstacle) {
+    const auto number = static_cast<std::uint32_t>(obstacles_.size());
+    obstacles_.push_back(obstacle);
+    if (!(obstacle.radius <= most_)) large_.push_back(number);
+    grid_.add(simulation.cell().wrap(obstacle.center));
   }
   /// Adds a grain if there is room for it at one of the places that are tried.
   bool add(auto& simulation) {
@@ -163,19 +177,29 @@ class Source {
       if (overlaps_grain(simulation, grain) || overlaps_wall(simulation, grain)) continue;
       added_.push_back(simulation.add_grain(id, pose, options_.density, options_.material));
       simulation.set_velocity(added_.back(), options_.velocity);
-      obstacles_.push_back(grain);
+      add_obstacle(simulation, grain);
       return true;
     }
     return false;
   }
   bool overlaps_grain(const auto& simulation, const Obstacle& grain) const {
-    return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& other) {
+    const auto overlaps = [&](std::uint32_t number) {
+      const Obstacle& other = obstacles_[number];
       const Vector center = simulation.cell().nearest(other.center, grain.center);
       const Vector shift = center - other.center;
       const Aabb<S> box(other.box.lower + shift, other.box.upper + shift);
       return box.overlaps(grain.box) &&
              (center - grain.center).norm() < other.radius + grain.radius;
-    });
+    };
+    if (std::any_of(large_.begin(), large_.end(), overlaps)) return true;
+    const auto& cell = simulation.cell();
+    const Vector center = cell.wrap(grain.center);
+    for (int k = 0; k < detail::neighbour_cells<S::dim>(); ++k) {
+      const auto steps = detail::neighbour_cell<Vector>(k);
+      if (cell.has_image(steps) && grid_.any_near(center + cell.shift(steps), overlaps))
+        return true;
+    }
+    return false;
   }
   static bool overlaps_wall(const auto& simulation, const Obstacle& grain) {
     const Vector middle = (grain.box.lower + grain.box.upper) / 2;
@@ -213,6 +237,9 @@ class Source {
   double due_ = 0;  // grains that are still to be added
   std::vector<BodyId> added_;
   std::vector<Obstacle> obstacles_;
+  detail::PointGrid<S> grid_;         // of their centres, in the periodic cell
+  std::vector<std::uint32_t> large_;  // those with a radius above most_
+  Scalar most_ = 0;                   // [m]
   GrainSum total_;
 };
 
