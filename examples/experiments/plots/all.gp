@@ -20,13 +20,13 @@ do for [n in "25 50 100"] {
   name = sprintf("impact_%sk", n); part = name . "_so_far"
   if (has(name) || has(part)) {
     set output folder . "/" . name . ".png"
-    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step 50 µs, tolerance 1e-3", n)
+    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step %s µs, tolerance 1e-3", n, n eq "100" ? "100" : "50")
     set xlabel "t [ms]"; set ylabel "z [mm]"; set key top center
     count = has(name) ? int(system(sprintf("head -1 '%s' | tr ',' '\n' | wc -l", file(name)))) : 2
     plot data . "/" . name . ".csv" using 1:(1000 * $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \
          data . "/" . name . ".csv" using 1:(1000 * $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
-         for [k = 3:count] (has(name) ? file(name) : "/dev/null") using 1:(1000 * column(k)) skip 1 with lines lc rgb own title (k == 3 ? "moreau, each bed" : ""), \
-         (has(part) ? file(part) : "/dev/null") using 1:(1000 * $2) skip 1 with lines dt 3 lc rgb own title has(part) ? "moreau, run not finished" : ""
+         for [k = 3:count] (has(name) ? file(name) : "/dev/null") using 1:(1000 * column(k)) skip 1 with lines lw 1.5 lc rgb own title (k == 3 ? "moreau, each bed" : ""), \
+         (has(part) ? file(part) : "/dev/null") using 1:(1000 * $2) skip 1 with lines lw 2 dt 3 lc rgb own title has(part) ? "moreau, run not finished" : ""
     set key top right
   }
 }
