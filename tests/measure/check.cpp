@@ -309,6 +309,89 @@ TEST_CASE_TEMPLATE("check: gravity along the last axis is right where something 
     }
 }
 
+TEST_CASE_TEMPLATE("check: gravity along another axis, where nothing can hold the grains", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>, Polyhedron<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (int axis = 0; axis < S::dim - 1; ++axis)
+    for (const T sign : {T(-1), T(1)})
+      for (const bool periodic : {false, true})
+        for (const bool wall : {false, true}) {
+          if (periodic && wall) continue;
+          Simulation<ShapeT, Coulomb> world(T(0.02), Materials<Coulomb>(1, Coulomb(T(0.5))));
+          world.add_grain(world.add_shape(regular_shape<ShapeT>(T(0.02))),
+                          Pose<S>(Vector(T(0.03) * up)), 2700);
+          world.add_wall(up, Vector::Zero());
+          const Vector along = sign * Vector::Unit(axis);
+          if (wall) world.add_wall(-along, along);
+          if (periodic) world.set_periodic(axis, -1, 1);
+          world.set_gravity(T(9.81) * along);
+          const auto all = check(world, world.step(T(1e-4)));
+          CHECK(all.empty() == (wall || periodic));
+          CHECK(all.size() <= 1);
+          CHECK(one_contains(all, "and no wall and no obstacle lies there") == !all.empty());
+          // A chute: the floor holds the grains.
+          world.set_gravity(T(9.81) * (T(0.6) * along - T(0.8) * up));
+          CHECK(check(world, world.step(T(1e-4))).empty());
+        }
+}
+
+TEST_CASE_TEMPLATE(
+    "check: forces in vain, bodies that all have a prescribed motion, grains too fast for the step",
+    ShapeT, MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>, Polyhedron<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (const T size : {T(1e-3), T(0.02), T(1)}) {
+    CAPTURE(size);
+    const auto world = [&] {
+      Simulation<ShapeT, Coulomb> made(size, Materials<Coulomb>(1, Coulomb(T(0.5))));
+      const ShapeId shape = made.add_shape(regular_shape<ShapeT>(size));
+      for (const T height : {T(1), T(3)})
+        made.add_grain(shape, Pose<S>(Vector(height * size * up)), 2700);
+      made.add_wall(up, Vector::Zero());
+      made.add_wall(-up, Vector(6 * size * up));
+      made.set_gravity(T(-9.81) * up);
+      return made;
+    };
+    const auto says = [](auto& simulation, const char* text) {
+      const auto all = check(simulation, simulation.step(T(1e-4)));
+      return all.size() == 1 && all[0].find(text) != std::string::npos;
+    };
+    auto a = world();
+    CHECK(check(a, a.step(T(1e-4))).empty());
+    a.set_force(BodyId(3), T(-1) * up);
+    CHECK(says(a, "the force or torque of body 3 has no effect: its motion is prescribed"));
+    a.set_wall_mass(BodyId(3), T(1e3));
+    CHECK(check(a, a.step(T(1e-4))).empty());
+    a.set_force(BodyId(1), T(1e-3) * up);
+    CHECK(check(a, a.step(T(1e-4))).empty());
+    a.prescribe_motion(BodyId(1));
+    CHECK(says(a, "the force or torque of body 1 has no effect"));
+    a.set_force(BodyId(1), Vector::Zero());
+    CHECK(check(a, a.step(T(1e-4))).empty());
+    a.prescribe_motion(BodyId(0));
+    CHECK(check(a, a.step(T(1e-4))).empty());  // the wall has a mass
+
+    auto b = world();
+    b.prescribe_motion(BodyId(0)), b.prescribe_motion(BodyId(1));
+    CHECK(says(b, "the motion of all bodies is prescribed"));
+
+    for (const T steps : {T(0.5), T(0.9), T(1.1), T(50)}) {
+      auto c = world();
+      c.set_velocity(BodyId(1), steps * size / T(1e-4) * Vector::UnitX());
+      const auto all = check(c, c.step(T(1e-4)));
+      CHECK(one_contains(all, "it can pass through others") == (steps > 1));
+      CHECK(all.size() == std::size_t(steps > 1));
+    }
+  }
+}
+
 TEST_CASE_TEMPLATE("check: a lost grain is named, and one beyond what the scalar holds", ShapeT,
                    MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   using S = SpaceOf<ShapeT>;

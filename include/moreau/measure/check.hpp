@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "moreau/measure/detail/check_bonds.hpp"
+#include "moreau/measure/detail/check_motion.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/measure/detail/check_units.hpp"
 #include "moreau/measure/detail/lost_grain.hpp"
@@ -61,7 +62,11 @@ class SentencesOnce {
 ///            12 (2.7 g/cm^3 are 2700 kg/m^3), grains all wider than 4 m (mm). A density above 25,000, a
 ///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees). A step so
 ///            long that gravity moves a grain at rest by more than a fifth of its size (ms)
-///          - gravity points along the last axis, and no wall and no obstacle lies there
+///          - gravity points along the last axis, or along another one that is not periodic, and no wall and no obstacle
+///            lies there
+///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass; the motion of all
+///            bodies is prescribed
+///          - a grain moves by more than a grain size in the step, although no contact approaches as fast
 ///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
 ///            will ever move
 ///          - a grain is lost: far from all others, or so far from the origin that the scalar holds its
@@ -74,6 +79,7 @@ template <class Simulation>
   const bool is_first = double(simulation.time()) < 1.5 * report.step;
   detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
   detail::check_units(found, simulation, report.step);
+  detail::check_motion(found, simulation, report);
   if constexpr (requires { simulation.missed_gap(); }) detail::check_bonds(found, simulation);
   if (!is_first && detail::is_idle(simulation, report))
     found.say(

@@ -20,7 +20,7 @@ namespace detail {
 
 /// The part of the trace of W_cc that copies of shared bodies add to that of the whole bodies.
 template <class Operator>
-double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& shared) {
+MOREAU_COLD double trace_of_copies(const Operator& op, std::size_t c, const SharedBodies& shared) {
   if constexpr (requires { op.block_of_a(c); }) {
     const auto [a, b] = op.bodies(c);
     return double(op.block_of_a(c).trace()) * (1 - 1.0 / shared.copies(a)) +

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/placed.hpp"
 #include "moreau/measure/detail/check_report.hpp"
@@ -98,6 +99,29 @@ template <class Simulation>
   return last > first || !(first < std::numeric_limits<Scalar>::infinity());
 }
 
+/// Gravity that points elsewhere than down the last axis, along an axis that is not periodic, to where nothing can hold
+/// a grain. A free fall down the last axis is what its user sees.
+template <class Simulation>
+MOREAU_INLINED inline void check_direction(Findings& found, const Simulation& simulation) {
+  constexpr int last = Simulation::S::dim - 1;
+  const typename Simulation::Vector gravity = simulation.gravity();
+  const double length = double(gravity.norm()), up = double(gravity[last]);
+  int axis = last;
+  for (int k = 0; k < last; ++k)
+    if (std::abs(gravity[k]) > std::abs(gravity[axis])) axis = k;
+  if (up <= -length / 2 || simulation.cell().is_periodic(axis) || is_held(simulation)) return;
+  if (up > length / 2)
+    found.say(
+        "gravity points along the last axis (% m/s^2), and no wall and no obstacle lies there. If "
+        "the last axis points up, type %",
+        {up, -up});
+  else
+    found.say(
+        "gravity has % m/s^2 along axis % (x is 0), and no wall and no obstacle lies there. If the "
+        "last axis points up, it is % m/s^2 along axis %",
+        {double(gravity[axis]), double(axis), -length, double(last)});
+}
+
 template <class Simulation>
 [[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
   Extremes of;
@@ -129,13 +153,7 @@ template <class Simulation>
         of.friction = std::max(of.friction, double(law.friction()));
   of.gravity = double(simulation.gravity().norm());
   judge(found, of, double(simulation.grain_size()));
-  constexpr int last = Simulation::S::dim - 1;
-  if (simulation.gravity()[last] > simulation.gravity().norm() / 2 && !is_held(simulation))
-    found.say(
-        "gravity points along the last axis (% m/s^2), and no wall and no obstacle lies there. If "
-        "the "
-        "last axis points up, type %",
-        {double(simulation.gravity()[last]), -double(simulation.gravity()[last])});
+  check_direction(found, simulation);
 }
 
 /// Whether nothing moves, and nothing will: no gravity, and no body has a velocity, a force or a part of its overlap
