@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <numbers>
 
 #include "moreau/boundary/servo.hpp"
@@ -159,6 +160,30 @@ TEST_CASE("a velocity drives a grain of prescribed motion, a force does not") {
   CHECK_THROWS_WITH_AS(pull.apply(world, 1e-3),
                        "VelocityDrive::apply: body = 1 must be the id of a body",
                        std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("a load that is made again goes on, and stops a wall of prescribed motion",
+                   ShapeT, moreau::Ball<>, moreau::Disk<>) {
+  LoneWall<ShapeT> scene;
+  auto& world = scene.simulation;
+  const auto area = [] { return 1.0; };
+  world.set_velocity(scene.wall, LoneWall<ShapeT>::Vector::UnitX());
+  const PressureLoad first(world, scene.wall, 6, 2, area);
+  CHECK(scene.v() == 0);
+  first.apply(world);
+  world.step(0.1);
+  CHECK(scene.v() == doctest::Approx(0.3));
+  const double speed = scene.v();
+  const PressureLoad again(world, scene.wall, 6, 2, area);
+  CHECK(scene.v() == speed);
+  const PressureLoad heavier(world, scene.wall, 6, 4, area);
+  CHECK(scene.v() == speed);
+  heavier.apply(world);
+  world.step(0.1);
+  CHECK(scene.v() == doctest::Approx(0.45));
+  world.set_wall_mass(scene.wall, std::numeric_limits<double>::infinity());
+  const PressureLoad stopped(world, scene.wall, 6, 4, area);
+  CHECK(scene.v() == 0);
 }
 
 TEST_CASE("the lid of a shear cell moves under its pressure while a drive shears it") {

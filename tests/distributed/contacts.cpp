@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every contact is found by exactly one process, whatever the grains and the boxes of the processes.
 #include <algorithm>
+#include <cstdint>
 #include <doctest/doctest.h>
 
 #include "distributed/worlds.hpp"
@@ -69,6 +70,9 @@ void check_contacts(const World& scene, int steps) {
     before = packing.gather();
     const StepReport report = packing.step(step);
     const std::vector<ContactKey> keys = all_keys(packing);
+    for (const std::uint32_t body :
+         {report.deepest_a, report.deepest_b})  // the same in all processes
+      CHECK(packing.processes().sum(double(body)) == double(body) * packing.processes().size());
     if (!before) continue;
     const StepReport alone = before->step(step);
     CHECK(keys == before->contacts().keys);
@@ -76,6 +80,10 @@ void check_contacts(const World& scene, int steps) {
     CHECK(report.points == alone.points);
     CHECK(report.overlapping == alone.overlapping);
     CHECK(report.max_overlap == doctest::Approx(alone.max_overlap));
+    if (alone.max_overlap > 0) {
+      CHECK(report.deepest_a == alone.deepest_a);
+      CHECK(report.deepest_b == alone.deepest_b);
+    }
     CHECK(report.mean_overlap == doctest::Approx(alone.mean_overlap));
     CHECK(report.warm_started == alone.warm_started);
   }

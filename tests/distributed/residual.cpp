@@ -174,5 +174,9 @@ TEST_CASE("A pressure on a wall is that of one process") {
     CHECK(now == doctest::Approx(wall_pressure(*same, opposite, step, 0.5)).epsilon(1e-3));
   }
   CHECK(measured == doctest::Approx(measured_alone).epsilon(0.02));
+  const SoftPolyhedra::Vector speed = packing.velocity(lid);
+  CHECK(speed.norm() > 0);
+  const PressureLoad again(packing, lid, pressure, mass, area);  // the wall has this mass
+  CHECK(packing.velocity(lid) == speed);
   CHECK_THROWS_AS(wall_pressure(packing, alone.grain(0), step, 0.5), std::invalid_argument);
 }

@@ -528,6 +528,15 @@ TEST_CASE_TEMPLATE("bond: a stone of bonded parts is one body until it breaks", 
   const auto other = add_bonded_parts(world, stone, apart, T(1000), MaterialId(0), T(1e-5));
   const std::size_t count = stone.parts().size();
   REQUIRE(parts.size() == count);
+  // A gap above the margin, and a place where another stone is: no part stays.
+  const Pose<S> third(Vector(Vector::Constant(T(0.3))));
+  CHECK_THROWS_WITH_AS(add_bonded_parts(world, stone, third, T(1000), MaterialId(0), T(1)),
+                       doctest::Contains("Simulation::bond_touching: gap = 1"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(add_bonded_parts(world, stone, apart, T(1000), MaterialId(0), T(1e-5)),
+                       doctest::Contains("Simulation::bond_touching: overlap"),
+                       std::invalid_argument);
+  CHECK(world.grain_count() == 2 * count);
   const BondState before = bond_state(world);
   CHECK(before.fragments == 2);
   CHECK(before.bonds >= 2 * (count - 1));
@@ -613,6 +622,21 @@ TEST_CASE_TEMPLATE(
   CHECK(says(kilo, weak));  // of bonds that have broken
   kilo.set_gravity(Vector(Vector::Zero()));
   CHECK(!says(kilo, weak));
+  // The laws of the pairs that are bonded count, not those of others.
+  for (const bool plate_is_bonded : {false, true}) {
+    Materials<Law> materials(2, Make<Law>::law());
+    materials.set(MaterialId(0), MaterialId(1), Make<Law>::law(0, 1e-9));
+    Simulation<ShapeT, Law> stones(width, materials, tight(std::is_same_v<T, float>));
+    const Vector up = Vector::Unit(S::dim - 1);
+    const ShapeId shape = stones.add_shape(ShapeT(T(radius)));
+    for (const T x : {T(0), width})
+      stones.add_grain(shape, Pose<S>(Vector(x * Vector::UnitX())), T(1000));
+    const BodyId plate = stones.add_wall(up, Vector(T(-radius) * up), MaterialId(1));
+    stones.set_gravity(Vector(T(-9.81) * up));
+    stones.bond(stones.grain(0), stones.grain(1));
+    if (plate_is_bonded) stones.bond(stones.grain(0), plate);
+    CHECK(says(stones, weak) == plate_is_bonded);
+  }
   for (const bool one : {true, false}) {  // in nearly one place
     auto same = pair(1, T(0.2 * radius));
     const BodyId a = same.grain(0), b = same.grain(1);
@@ -730,6 +754,13 @@ TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
   CHECK(held.world.bond_touching(1e-4) == 0);
   const std::vector<BodyId> alone{held.last()};
   CHECK(held.world.bond_touching(1e-4, alone) == 0);
+  Simulation<Circle, Rigid> none(2 * radius, Materials<Rigid>(1, Make<Rigid>::law()));
+  const ShapeId circle = none.add_shape(Circle(radius));
+  for (int k = 0; k < 3; ++k) none.add_grain(circle, Pose<Space<2>>({2 * radius * k, 0}), 1000);
+  CHECK(none.bond_touching(1e-4, std::vector<BodyId>{}) == 0);  // an empty list is a list
+  CHECK(std::isinf(none.missed_gap()));
+  CHECK(none.bond_touching(1e-4, std::vector{none.grain(1), none.grain(2)}) == 1);
+  CHECK(none.bond_touching(1e-4) == 1);  // the other pair
   CHECK_THROWS_WITH(held.world.bond_touching(1),
                     doctest::Contains("Simulation::bond_touching: gap = 1"));
   CHECK_THROWS_WITH(held.world.bond(wall, wall), doctest::Contains("Simulation::bond: b"));

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "moreau/boundary/drive.hpp"
+#include "moreau/boundary/servo.hpp"
 #include "moreau/io/snapshot.hpp"
 
 #include "io/faults.hpp"
@@ -105,6 +106,44 @@ TEST_CASE_TEMPLATE("N + M steps are N steps, a restart and M steps", ShapeT,
   CHECK(one.candidate_pairs == two.candidate_pairs);
   CHECK(one.solve.sweeps == two.solve.sweeps);
   CHECK(one.dissipation == two.dissipation);
+}
+
+TEST_CASE_TEMPLATE("a wall under pressure goes on with the same bits", ShapeT,
+                   MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, moreau::Ball<>))) {
+  const TemporaryFolder folder("restart-load");
+  const auto path = folder / "run.snapshot";
+  const double width = 0.08, area_of_wall = SpaceOf<ShapeT>::dim == 2 ? width : width * width;
+  const auto area = [&] { return area_of_wall; };
+  BoxOfGrains<ShapeT> box(12);
+  PressureLoad before(box.simulation, box.walls[1], 2e3, 0.1, area);
+  const auto run = [](auto& world, const auto& load, int steps) {
+    for (int k = 0; k < steps; ++k) load.apply(world), world.step(5e-4);
+  };
+  run(box.simulation, before, 20);
+  CHECK(box.simulation.velocity(box.walls[1]).norm() > 1e-3);
+  write_snapshot(path, box.simulation);
+  World<ShapeT> simulation = other_world<ShapeT>();
+  read_snapshot(path, simulation);
+  const PressureLoad load(simulation, simulation.walls()[1], 2e3, 0.1, area);  // the same mass
+  CHECK(snapshot(simulation) == snapshot(box.simulation));
+  run(simulation, load, 100), run(box.simulation, before, 100);
+  CHECK(snapshot(simulation) == snapshot(box.simulation));
+}
+
+TEST_CASE("a snapshot has whether deep overlaps are allowed") {
+  World<Disk<>> allowed = other_world<Disk<>>(), refused = allowed;
+  allowed.allow_overlaps();
+  for (const bool allows : {true, false}) {
+    World<Disk<>> world = other_world<Disk<>>();
+    world.allow_overlaps(!allows);
+    restore_snapshot(snapshot(allows ? allowed : refused), world);
+    const ShapeId disk = world.add_shape(Disk<>(0.05));
+    for (const double x : {0.0, 0.01}) world.add_grain(disk, Pose<Space<2>>({x, 0}), 1000);
+    if (allows)
+      CHECK_NOTHROW(world.step(1e-3));
+    else
+      CHECK_THROWS_AS(world.step(1e-3), std::invalid_argument);
+  }
 }
 
 TEST_CASE_TEMPLATE("steps of two lengths in turn start from the same forces", ShapeT,

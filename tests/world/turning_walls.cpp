@@ -358,3 +358,62 @@ TEST_CASE("a ball that rolls round in a tube goes down and up and keeps its ener
     CHECK(std::abs(world.velocity(ball).norm() / (path * rate) - 1) < 0.3 * std::pow(rate * h, 2));
   }
 }
+
+TEST_CASE_TEMPLATE("a spin that turns a wall across a periodic axis is refused", ShapeT, Disk<>,
+                   Ball<>, BallIn<Space<3, float>>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Angular = typename S::Angular;
+  using Law = SignoriniCoulomb<T>;
+  constexpr const char* text = "must not turn the wall across a periodic axis";
+  const auto build = [] {
+    Simulation<ShapeT, Law> world(T(0.02), Law(T(0.5)));
+    world.add_grain(world.add_shape(ShapeT(T(0.01))), Pose<S>(Vector(Vector::Zero())), T(2700));
+    return world;
+  };
+  auto world = build();
+  const Vector up = Vector::Unit(S::dim - 1);
+  const BodyId floor = world.add_wall(up, Vector(T(-0.01) * up));
+  const auto about = [](int axis) {
+    Angular spin = Angular::Zero();
+    spin[S::dim == 2 ? 0 : axis] = T(0.3);
+    return spin;
+  };
+  world.set_spin(floor, about(1));
+  CHECK_THROWS_WITH_AS(world.set_periodic(0, 0, 1), doctest::Contains(text), std::invalid_argument);
+  CHECK(world.cell().is_open());
+  world.set_spin(floor, Angular::Zero());
+  world.set_periodic(0, 0, 1);
+  CHECK_THROWS_WITH_AS(world.set_spin(floor, about(1)),
+                       doctest::Contains("Simulation::set_spin: spin = "), std::invalid_argument);
+  CHECK(world.spin(floor) == Angular(Angular::Zero()));
+  world.set_spin(world.grain(0), about(1));
+  world.set_spin(floor, Angular::Zero());
+  if constexpr (S::dim == 3) {
+    const Angular both = about(0) + about(2);
+    CHECK_THROWS_AS(world.set_spin(floor, both), std::invalid_argument);
+    world.set_spin(floor, about(0));  // the periodic axis: the floor stays along it
+    for (int k = 0; k < 100; ++k) world.step(T(1e-2));
+    CHECK(std::abs((world.pose(floor).rotation * Vector::UnitX())[0]) < T(1e-5));
+    CHECK_THROWS_AS(world.set_periodic(1, -1, 1), std::invalid_argument);
+    auto turned = build();
+    turned.set_periodic(0, 0, 1);
+    const BodyId table = turned.add_wall(up, Vector(T(-0.01) * up));
+    turned.set_spin(table, about(2));  // about its normal
+    const Pose<S> upright(
+        Vector(T(-0.01) * up),
+        S::exp(Angular(T(std::numbers::pi / 2) * Angular::UnitX())) * turned.pose(table).rotation);
+    CHECK_THROWS_WITH_AS(turned.set_pose(table, upright),
+                         doctest::Contains("Simulation::set_pose: spin = "), std::invalid_argument);
+    turned.set_periodic(1, 0, 1);
+    turned.set_spin(table, about(2));
+    CHECK_THROWS_AS(turned.set_spin(table, about(0)), std::invalid_argument);
+    auto drum = build();
+    drum.set_periodic(0, 0, 1);
+    const BodyId cylinder = drum.add_cylinder(Vector::Zero(), Vector::UnitX(), T(0.1));
+    drum.set_spin(cylinder, about(0));
+    CHECK_THROWS_WITH_AS(drum.set_spin(cylinder, about(2)), doctest::Contains(text),
+                         std::invalid_argument);
+  }
+}

@@ -52,6 +52,14 @@ template <class Simulation>
 typename Simulation::Vector wall_normal(const Simulation& simulation, BodyId wall) {
   return simulation.pose(wall).rotation.toRotationMatrix().col(0);
 }
+/// Whether a wall is without set_wall_mass(), so that its motion is prescribed.
+template <class Simulation>
+bool has_no_mass(const Simulation& simulation, BodyId wall) {
+  if constexpr (requires { simulation.mobility_root(wall); })  // of several processes
+    return simulation.mobility_root(wall).linear.isZero(0);
+  else
+    return simulation.is_prescribed(wall);
+}
 /// The present area, checked.
 template <class T>
 T checked_area(const auto& area, const char* function) {
@@ -86,7 +94,8 @@ typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
 template <AreaFunction Area>
 class PressureLoad {
  public:
-  /// Gives the wall its mass and sets its velocity to zero.
+  /// Gives the wall its mass. A wall whose motion was prescribed comes to rest. A wall that has a mass already
+  /// keeps its velocity: a load that is made anew, for example after read_snapshot(), continues the motion.
   /// @param wall     id of a half-space of the simulation
   /// @param pressure [Pa], in the plane [N/m]; if > 0 it pushes the wall along its normal, towards
   ///                 the grains
@@ -103,8 +112,9 @@ class PressureLoad {
     require_positive(mass, "PressureLoad", "mass");
     detail::require_half_space(simulation, wall, "PressureLoad");
     using Scalar = typename Simulation::Scalar;
+    const bool was_prescribed = detail::has_no_mass(simulation, wall);
     simulation.set_wall_mass(wall, static_cast<Scalar>(mass));
-    simulation.set_velocity(wall, Simulation::Vector::Zero());
+    if (was_prescribed) simulation.set_velocity(wall, Simulation::Vector::Zero());
   }
 
   /// Sets the force pressure x area for the next step. The second argument is not used; it exists

@@ -129,6 +129,10 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
       if constexpr (!splits) detail::WorldParts<World>(world_).forget_pairs();
       StepReport report = world_.step(step);
       redistribution_.refresh_ghosts();
+      if (report.max_overlap > 0) {
+        report.deepest_a = redistribution_.id(report.deepest_a).value;
+        report.deepest_b = redistribution_.id(report.deepest_b).value;
+      }
       detail::reduce(report, processes_);
       return report;
     });

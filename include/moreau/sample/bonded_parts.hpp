@@ -22,7 +22,7 @@ namespace moreau {
 /// @param gap        parts whose gap is at most this are bonded [m], in [0, margin]
 /// @returns the ids of the parts, in the order of Compound::parts()
 /// @throws std::invalid_argument for a compound whose parts overlap by more than 1e-3 of the volume, and as
-///         Simulation::add_grain(), Simulation::bond_touching()
+///         Simulation::add_grain(), Simulation::bond_touching(). The simulation then has no part of the stone
 template <class Simulation, class Compound>
 std::vector<BodyId> add_bonded_parts(Simulation& simulation, const Compound& stone,
                                      const Pose<typename Simulation::S>& pose,
@@ -32,10 +32,15 @@ std::vector<BodyId> add_bonded_parts(Simulation& simulation, const Compound& sto
   require(stone.volume_share() > Scalar(1 - 1e-3), "add_bonded_parts", "stone.volume_share()",
           stone.volume_share(), "must be 1: grains do not overlap");
   std::vector<BodyId> parts;
-  for (const auto& part : stone.parts())
-    parts.push_back(simulation.add_grain(simulation.add_shape(part.shape), pose * part.pose,
-                                         density, material));
-  simulation.bond_touching(gap, std::span<const BodyId>(parts));
+  try {
+    for (const auto& part : stone.parts())
+      parts.push_back(simulation.add_grain(simulation.add_shape(part.shape), pose * part.pose,
+                                           density, material));
+    simulation.bond_touching(gap, std::span<const BodyId>(parts));
+  } catch (...) {
+    simulation.remove_grains(parts);
+    throw;
+  }
   return parts;
 }
 

@@ -61,7 +61,8 @@ class BodyControl : public BodyAccess<ShapeT> {
   }
   /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
   /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
-  /// Gravity does not act on walls. With an infinite mass its motion is prescribed again.
+  /// Gravity does not act on walls. With an infinite mass its motion is prescribed again. No effect on a
+  /// wall that has this mass.
   /// @param wall a half-space or a mesh wall; a cylinder cannot have a mass
   /// @param mass [kg], > 0
   /// @throws std::invalid_argument for a body that is neither in walls() nor in mesh_walls(), or a mass
@@ -70,7 +71,9 @@ class BodyControl : public BodyAccess<ShapeT> {
     assembly_.require_wall(wall, "Simulation::set_wall_mass");
     require(mass > 0 && std::isfinite(1 / mass), "Simulation::set_wall_mass", "mass", mass,
             "must be > 0, with a finite inverse");
-    assembly_.bodies().inverse_mass[wall.index()] = Vector::UnitX() / mass;
+    const Vector inverse = Vector::UnitX() / mass;
+    if (assembly_.bodies().inverse_mass[wall.index()] == inverse) return;
+    assembly_.bodies().inverse_mass[wall.index()] = inverse;
     assembly_.note_placed(wall.index());
   }
   /// Sets the external force on a body at its centre of mass, world axes [N]. It adds to gravity,
@@ -98,21 +101,12 @@ class BodyControl : public BodyAccess<ShapeT> {
     linear<S>(assembly_.bodies().velocity[body.index()]) = velocity;
     note_speed_of(body);
   }
-  /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
-  /// from x to y. A body without inertia, such as a wall, and one whose motion is prescribed keep it.
-  /// @throws std::invalid_argument for a body that is not of this simulation or a spin that is not
-  ///         finite
-  void set_spin(BodyId body, const AngularArgument<S>& spin) {
-    assembly_.require_body(body, "Simulation::set_spin", "spin", spin);
-    angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
-    note_speed_of(body);
-  }
 
   /// Allows deep overlaps of bodies that are added or placed, or refuses them again. Unless they are
   /// allowed, the next step() throws where such a body overlaps another by more than half of the
   /// smallest width of the grain: the centre of a ball then lies inside the other body, and the nearest
   /// exit may lie on its far side. Allowed overlaps are corrected by at most
-  /// OverlapCorrectionOptions::max_shift per step. Snapshots do not contain this setting.
+  /// OverlapCorrectionOptions::max_shift per step. Snapshots contain this setting.
   void allow_overlaps(bool allow = true) { assembly_.allow_overlaps(allow); }
 
  protected:
@@ -120,7 +114,6 @@ class BodyControl : public BodyAccess<ShapeT> {
 
   using BodyAccess<ShapeT>::assembly_;
 
- private:
   /// The forces of dashpots no longer belong to the velocities. Those on a body whose motion is prescribed,
   /// whose velocity a drive sets in every step, follow in the next step, as its motion does.
   void note_speed_of(BodyId body) {

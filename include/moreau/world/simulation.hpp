@@ -179,8 +179,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis, a mesh wall, or a cell not longer than two of the widest grain
-  ///         with margin and skins: a pair could touch through two images
+  ///         a wall across the axis or with a spin that turns it across the axis, a mesh wall, or a cell not
+  ///         longer than two of the widest grain with margin and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper);
   /// Makes the world periodic along D vectors, with a cell that can deform (control_cell()). Poses are not
   /// wrapped. Walls, cylinders and meshes do not fit into it. An oblique cell, as after a large shear, gets other
@@ -203,14 +203,26 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Sets the pose of a body, world axes [m]; its velocity does not change. See allow_overlaps().
   /// @throws std::invalid_argument for a body that is not of this simulation, a pose that is not finite
-  ///         or whose rotation is not of unit length, a wall across a periodic axis
+  ///         or whose rotation is not of unit length, a wall across a periodic axis, or one that its spin turns across it
   void set_pose(BodyId body, const Pose<S>& pose) {
     constexpr const char* self = "Simulation::set_pose";
     assembly_.require_body(body, self);
     assembly_.require_pose(pose, self);
     assembly_.require_walls_fit(cell(), body, pose, self);
+    assembly_.require_walls_stay(cell(), body, pose, this->spin(body), self);
     assembly_.bodies().pose[body.index()] = pose;
     assembly_.note_placed(body.index());
+  }
+  /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
+  /// from x to y. A body without inertia, such as a wall, and one whose motion is prescribed keep it.
+  /// @throws std::invalid_argument for a body that is not of this simulation, a spin that is not finite, or
+  ///         the spin of a half-space or a cylinder that turns it across a periodic axis
+  void set_spin(BodyId body, const AngularArgument<S>& spin) {
+    constexpr const char* self = "Simulation::set_spin";
+    assembly_.require_body(body, self, "spin", spin);
+    assembly_.require_walls_stay(cell(), body, this->pose(body), spin, self);
+    angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
+    this->note_speed_of(body);
   }
   /// Sets the acceleration of gravity on grains, world axes [m/s^2]; zero at first. It must be finite.
   void set_gravity(const VectorArgument<S>& gravity) {
@@ -239,12 +251,15 @@ class Simulation : public BodyControl<ShapeT> {
   /// Sets the laws from the next step on; another number of materials throws.
   void set_materials(const Materials<Law>& materials);
 
-  /// Bonds all pairs of bodies, or of those in `among`, whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
+  /// Bonds all pairs of bodies whose gap is at most `gap` [m] now and that have no bond yet, at the middle of their
   /// contact points. The laws of their materials have the strengths.
   /// @returns how many bonds were made; check() says if there is none
   /// @throws std::invalid_argument for a gap that is negative, not finite or above the margin, or a deep overlap of a
   ///         body that was placed since the last step, see allow_overlaps()
-  std::size_t bond_touching(Scalar gap, std::span<const BodyId> among = {}) requires
+  std::size_t bond_touching(Scalar gap) requires BondingLaw<Law, SpaceOf<ShapeT>>;
+  /// The same for pairs of which both bodies are in `among`; an empty list makes no bond.
+  /// @throws std::invalid_argument as the function for all bodies, or for a body that is not of this simulation
+  std::size_t bond_touching(Scalar gap, std::span<const BodyId> among) requires
       BondingLaw<Law, SpaceOf<ShapeT>>;
   /// Bonds two bodies at the middle of their contact points, unless they have a bond.
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
@@ -371,6 +386,8 @@ class Simulation : public BodyControl<ShapeT> {
     return lengths;
   }
 
+  /// The two functions bond_touching(): bonds pairs of which is_listed(index) is true for both bodies.
+  std::size_t bond_near(Scalar gap, const auto& is_listed);
   /// Bonds the pairs of contacts, in the present configuration, for which keeps(contact) is true.
   std::size_t add_bonds(const char* function, const auto& keeps);
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <vector>
 
 #include "moreau/distributed/communicator.hpp"
 #include "moreau/world/step_report.hpp"
@@ -9,6 +15,7 @@
 namespace moreau::detail {
 
 /// Makes the report of each process that of all together. The report of the solver is so already.
+/// @param report deepest_a and deepest_b are indices in the whole simulation
 inline void reduce(StepReport& report, Communicator& processes) {
   std::size_t* const counts[] = {
       &report.candidate_pairs,    &report.pairs,       &report.points,
@@ -33,8 +40,14 @@ inline void reduce(StepReport& report, Communicator& processes) {
   // The smallest relative compliance is the inverse of the largest relative stiffness.
   const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
   double depth = report.mean_overlap * double(report.overlapping);
-  double added[std::size(counts) + std::size(sums) + 1], largest[std::size(extremes) + 1];
-  double* next = added;
+  double largest[std::size(extremes) + 1];
+  // The deepest point of each process, in numbers of its own: depth, first and second body.
+  constexpr std::size_t numbers = std::size(counts) + std::size(sums) + 1;
+  std::vector<double> added(numbers + 3 * std::size_t(processes.size()), 0);
+  double* const deepest = added.data() + numbers;
+  double* const own = deepest + 3 * std::size_t(processes.rank());
+  own[0] = report.max_overlap, own[1] = report.deepest_a, own[2] = report.deepest_b;
+  double* next = added.data();
   for (const std::size_t* count : counts) *next++ = double(*count);
   for (const double* sum : sums) *next++ = *sum;
   *next = depth;
@@ -43,7 +56,7 @@ inline void reduce(StepReport& report, Communicator& processes) {
   *next = inverse(report.relative_compliance);
   processes.sum(std::span(added));
   processes.largest(std::span(largest));
-  next = added;
+  next = added.data();
   for (std::size_t* count : counts) *count = std::size_t(*next++);
   for (double* sum : sums) *sum = *next++;
   depth = *next;
@@ -51,6 +64,12 @@ inline void reduce(StepReport& report, Communicator& processes) {
   next = largest;
   for (double* extreme : extremes) *extreme = *next++;
   report.relative_compliance = inverse(*next);
+  // Of points of the same depth that of the smallest bodies, as in one process.
+  std::array<double, 3> first{};  // minus the depth, both bodies
+  for (int k = 0; k < processes.size(); ++k)
+    first = std::min(first, {-deepest[3 * k], deepest[3 * k + 1], deepest[3 * k + 2]});
+  report.deepest_a = std::uint32_t(first[1]);
+  report.deepest_b = std::uint32_t(first[2]);
 }
 
 }  // namespace moreau::detail

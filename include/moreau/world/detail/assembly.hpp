@@ -238,6 +238,22 @@ class Assembly {
       if (wall == body) require_fits(shape, pose, cell, function);
     });
   }
+  /// Checks that a wall at a pose that keeps a spin does not turn across a periodic axis: a half-space may turn about
+  /// its normal, it and a cylinder about the periodic axis if there is one only. Any other body passes.
+  void require_walls_stay(const PeriodicCell<S>& cell, BodyId body, const Pose<S>& pose,
+                          const AngularArgument<S>& spin, const char* function) const {
+    if (cell.is_open()) return;
+    const bool is_plane = std::find(walls_.begin(), walls_.end(), body) != walls_.end();
+    bool is_wall = is_plane;
+    for (const CylinderBody<S>& cylinder : cylinders_) is_wall = is_wall || cylinder.body == body;
+    const auto turns = [&](const typename S::Vector& axis) {
+      return S::spin(spin, axis).norm() > Scalar(1e-5) * spin.norm();
+    };
+    if (!is_wall || (is_plane && !turns(pose.rotation * S::Vector::UnitX()))) return;
+    for (int axis = 0; axis < S::dim; ++axis)
+      require(!cell.is_periodic(axis) || !turns(S::Vector::Unit(axis)), function, "spin", spin,
+              "must not turn the wall across a periodic axis");
+  }
   void require_grain(std::size_t k, const char* function) const {
     require(k < grains_.size(), function, "k", k, "must be below the number of grains");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -18,18 +19,30 @@
 namespace moreau {
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(Scalar gap) requires
+    BondingLaw<Law, SpaceOf<ShapeT>> {
+  return bond_near(gap, [](std::uint32_t) { return true; });
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(
     Scalar gap, std::span<const BodyId> among) requires BondingLaw<Law, SpaceOf<ShapeT>> {
-  constexpr const char* self = "Simulation::bond_touching";
-  require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
-  std::vector<bool> listed(bodies().size(), among.empty());
+  std::vector<bool> listed(bodies().size(), false);
   for (const BodyId body : among) {
-    assembly_.require_body(body, self);
+    assembly_.require_body(body, "Simulation::bond_touching");
     listed[body.index()] = true;
   }
+  return bond_near(gap, [&](std::uint32_t body) { return bool(listed[body]); });
+}
+
+template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_near(Scalar gap,
+                                                                          const auto& is_listed) {
+  constexpr const char* self = "Simulation::bond_touching";
+  require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
   Scalar nearest = std::numeric_limits<Scalar>::infinity();
   const std::size_t made = add_bonds(self, [&](const Contact<S>& contact) {
-    if (!listed[contact.a] || !listed[contact.b]) return false;
+    if (!is_listed(contact.a) || !is_listed(contact.b)) return false;
     nearest = std::min(nearest, contact.gap);
     return contact.gap <= gap;
   });

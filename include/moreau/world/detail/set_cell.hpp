@@ -18,6 +18,11 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_periodic(int axis, 
   require(assembly_.meshes().empty(), self, "axis", axis, "must be open, with mesh walls");
   PeriodicCell<S> cell = detector_.cell();
   cell.set(axis, lower, upper, self);
+  const auto require_stays = [&](BodyId wall) {
+    assembly_.require_walls_stay(cell, wall, this->pose(wall), this->spin(wall), self);
+  };
+  for (const BodyId wall : assembly_.walls()) require_stays(wall);
+  for (const CylinderBody<S>& wall : assembly_.cylinders()) require_stays(wall.body);
   detector_.place_walls(assembly_.bodies().pose);
   detector_.set_cell(cell, lengths(), self);
   assembly_.note_all_placed();
