@@ -77,6 +77,13 @@ TEST_CASE("check: gravity that was forgotten") {
   CHECK(run(world, 5e-4, 1).empty());
 }
 
+TEST_CASE("check: a long step after a short one is not the first") {
+  World world = cube(0.02, 0.5);
+  world.set_gravity({0, 0, 0});
+  CHECK(run(world, 1e-5, 1).empty());
+  CHECK(one_contains(run(world, 1e-3, 1), "nothing moves"));
+}
+
 TEST_CASE("check: a step too long for the speeds") {
   World world = cube(0.02, 0.5);
   const auto all = run(world, 0.05, 10);

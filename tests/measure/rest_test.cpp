@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/measure/rest_test.hpp"
 
+#include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
 
@@ -8,6 +9,8 @@
 #include "moreau/measure/heap.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
+
+#include "types.hpp"
 
 using namespace moreau;
 
@@ -76,6 +79,29 @@ TEST_CASE_TEMPLATE("rest needs its time, and has a hysteresis", ShapeT, Disk<>, 
   }
 }
 
+TEST_CASE_TEMPLATE("forces that cancel to rounding are no load, others are", ShapeT,
+                   MOREAU_TYPES((Disk<>, BallIn<Space<3, float>>),
+                                (Ball<>, BallIn<Space<2, float>>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = SignoriniCoulomb<T>;
+  for (const double third : {-0.3, -0.2}) {
+    CAPTURE(third);
+    Simulation<ShapeT, Law> row(T(d), Law(T(0)));
+    const ShapeId shape = row.add_shape(ShapeT(T(d / 2)));
+    const double forces[] = {0.1, 0.2, third};
+    for (int k = 0; k < 3; ++k)
+      row.set_force(row.add_grain(shape, Pose<S>(Vector(T(d * k) * Vector::UnitX())), T(2700)),
+                    Vector(T(forces[k]) * Vector::UnitX()));
+    RestTest rest({.speed = 1e3, .time = 3 * h});  // the load alone decides
+    bool is_at_rest = false;
+    for (int k = 0; k < 10; ++k) is_at_rest = rest.add(row, row.step(T(h)), h);
+    CHECK(is_at_rest == (third == -0.3));
+    CHECK(rest.missing_load() == doctest::Approx(third == -0.3 ? 0 : 1));  // no wall carries 0.1 N
+  }
+}
+
 TEST_CASE("options of a rest test") {
   CHECK_THROWS_WITH(RestTest({.hysteresis = 0.5}),
                     "RestTest: options.hysteresis = 0.5 must be finite and >= 1");
@@ -87,6 +113,13 @@ TEST_CASE("options of a rest test") {
   RestTest rest;
   CHECK_THROWS_WITH(rest.add(slider.simulation, slider.simulation.step(h), h),
                     "RestTest::add: options.speed = 0 must be > 0 without gravity");
+  slider.simulation.set_gravity({0, -9.81});
+  const StepReport report = slider.simulation.step(h);
+  CHECK_THROWS_WITH(rest.add(slider.simulation, report, 0),
+                    "RestTest::add: step = 0 must be finite and > 0");
+  CHECK_THROWS_AS(rest.add(slider.simulation, report, std::nan("")), std::invalid_argument);
+  CHECK_THROWS_WITH(rest.add(slider.simulation, report, 2 * h),
+                    "RestTest::add: step = 0.002 must be the step of the report");
 }
 
 TEST_CASE_TEMPLATE("the slope of a heap", ShapeT, Disk<>, Ball<>) {

@@ -135,3 +135,43 @@ TEST_CASE_TEMPLATE("a grid holds the weighted means of its cells, along every ax
   CHECK_THROWS_AS(GridField<S>(box, cells), std::invalid_argument);
   CHECK_THROWS_AS(GridField<S>({}, field.cells()), std::invalid_argument);
 }
+
+TEST_CASE_TEMPLATE("a field refuses a control volume that is longer than the periodic cell", S,
+                   Space<2>, Space<3>) {
+  using V = typename S::Vector;
+  typename GridField<S>::Cells cells;
+  cells.fill(4);
+  const Aabb<S> box{V::Zero(), V::Ones()};
+  GridField<S> field(box, cells);
+  VelocityField<S> section(box, 4, 4);
+  const auto refuses = [&](const PeriodicCell<S>& cell) {
+    CHECK_THROWS_WITH_AS(field.add(V::Zero(), V::Zero(), 1, cell),
+                         doctest::Contains("GridField::add: control_volume = [(0, 0"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(section.add(V::Zero(), V::Zero(), cell),
+                         doctest::Contains("must not be longer than the periodic cell"),
+                         std::invalid_argument);
+  };
+  PeriodicCell<S> half;
+  half.set(0, 0, 0.5);
+  refuses(half);
+  // A lattice that is sheared: the box fits no more. Of a smaller box each grain has one image in it.
+  PeriodicCell<S> sheared;
+  typename S::Matrix vectors = S::Matrix::Identity();
+  sheared.set_vectors(vectors, V::Zero());
+  field.add(V::Constant(1.25), V::Ones(), 1, sheared);
+  CHECK(field.sample(field.size() - 1).grains + field.sample(0).grains <= 1);
+  vectors(0, 1) = 0.3;
+  sheared.set_vectors(vectors, V::Zero());
+  refuses(sheared);
+  GridField<S> small({V::Zero(), V::Constant(0.7)}, cells);
+  std::size_t within = 0, added = 0;
+  for (int k = 0; k < 100; ++k) {
+    V x = V::Constant(0.35);
+    x[0] = 0.01 * k + 0.005;
+    small.add(V(x + vectors * V::LinSpaced(1, S::dim)), V::Ones(), 1, sheared);
+    within += x[0] < 0.7 ? 1u : 0u;
+  }
+  for (std::size_t k = 0; k < small.size(); ++k) added += small.sample(k).grains;
+  CHECK(added == within);
+}

@@ -530,7 +530,7 @@ class Simulation:
 
     def coordination(self, fewest: int = 0) -> Coordination:
         """The coordination number: .neighbours is the mean number of bodies with which a grain has a contact that
-        pushes, walls included.
+        pushes, walls included. A grain of prescribed motion counts as a wall.
 
         fewest: grains with fewer neighbours are removed first, until none is left (.rattlers); 0 keeps all.
         """

@@ -60,7 +60,7 @@ ContactClasses contact_classes(std::span<const PairForce<S>> pairs, std::size_t 
   return result;
 }
 
-/// The same for the grains of a simulation and its last step.
+/// The same for the grains of a simulation and its last step. As in coordination(), an obstacle counts as a wall.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
 /// @throws std::invalid_argument if the step is not positive
@@ -68,8 +68,11 @@ template <class Simulation>
 ContactClasses contact_classes(const Simulation& simulation, typename Simulation::Scalar step) {
   using S = typename Simulation::S;
   const auto pairs = pair_forces(simulation, step);
-  return contact_classes<S>(std::span<const PairForce<S>>(pairs), simulation.grain_count(),
-                            detail::grain_in(simulation));
+  const auto is_free = detail::free_grain_in(simulation);
+  std::size_t grains = 0;
+  for (std::size_t body = 0; body < simulation.bodies().size(); ++body)
+    grains += is_free(body) ? 1u : 0u;
+  return contact_classes<S>(std::span<const PairForce<S>>(pairs), grains, is_free);
 }
 
 }  // namespace moreau

@@ -10,13 +10,15 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 
 namespace moreau {
 
 /// Coordination number: the mean number of neighbours with which a grain has a contact that carries
 /// force.
 struct Coordination {
-  std::size_t grains = 0;    ///< number of grains counted, without the rattlers that were removed
+  std::size_t grains =
+      0;  ///< number of grains counted, without obstacles and the rattlers that were removed
   std::size_t rattlers = 0;  ///< number of rattlers that were removed
   std::size_t points = 0;  ///< number of contact points of the counted bodies with normal impulse >
                            ///< 0
@@ -38,7 +40,8 @@ class CoordinationCounter {
   /// @param points     contact points, sorted by (a, b) as in Contacts
   /// @param impulses   impulse of each point in its contact frame, normal component first [N s]: Contacts::impulses
   /// @param body_count number of bodies, including walls
-  /// @param is_grain   function: index of a body -> true for a grain, false for a wall
+  /// @param is_grain   function: index of a body -> true for a grain, false for a wall or an obstacle: it is a
+  ///                   neighbour, and is neither counted nor removed
   /// @param fewest     grains with fewer neighbours than this are rattlers. They are removed with
   ///                   their contacts. This is repeated until no rattlers are left. With 0 all
   ///                   grains are counted. Use S::dim + 1 for frictionless rigid spheres. With
@@ -120,7 +123,8 @@ class CoordinationCounter {
 ///
 /// A contact is a pair of bodies with at least one contact point whose normal impulse is > 0 in the
 /// last step. A pair counts once, whatever its number of points; a grain that touches a wall has the
-/// wall as a neighbour. Points without impulse and points that attract do not count.
+/// wall as a neighbour. A grain of prescribed motion is an obstacle and counts as a wall does: it is a neighbour, it
+/// has no mean of its own, and it is never a rattler. Points without impulse and points that attract do not count.
 /// @param simulation a Simulation
 /// @param fewest     grains with fewer neighbours than this are removed as rattlers; with 0 all
 ///                   grains are counted (CoordinationCounter::count())
@@ -129,7 +133,7 @@ Coordination coordination(const Simulation& simulation, std::size_t fewest = 0) 
   const auto& contacts = simulation.contacts();
   return CoordinationCounter<typename Simulation::S>().count(
       contacts.points, contacts.impulses, simulation.bodies().size(),
-      [&](std::size_t body) { return simulation.is_grain(body); }, fewest);
+      detail::free_grain_in(simulation), fewest);
 }
 
 }  // namespace moreau

@@ -7,7 +7,8 @@
 //   displacement.add(x_0, x - x_0);        // x_0 = reference position, to which the field refers
 //
 // The poses of a periodic simulation are not wrapped into the cell. So the difference of two poses
-// of a grain is its displacement.
+// of a grain is its displacement. Pass the cell as the last argument of add(): it adds the image of the grain that lies in
+// the control volume.
 #pragma once
 
 #include <cstddef>
@@ -64,14 +65,16 @@ class GridField {
   /// @param value    the quantity to average, in any unit
   /// @param weight   > 0. If the value is the velocity and the weight the mass [kg], the mean in a
   ///                 cell is the momentum of its grains divided by their mass
-  /// @param periodic periodic cell of the simulation
-  /// @throws std::invalid_argument if a number is not finite, or if the weight is not positive
+  /// @param periodic periodic cell of the simulation, Simulation::cell(): without it, only the given image counts
+  /// @throws std::invalid_argument if a number is not finite, if the weight is not positive, or if the control
+  ///         volume is longer than the periodic cell, see require_within()
   void add(const VectorArgument<S>& position, const VectorArgument<S>& value, Scalar weight = 1,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "GridField::add";
     require(all_finite(position), self, "position", position, "must be finite");
     require(all_finite(value), self, "value", value, "must be finite");
     require_positive(weight, self, "weight");
+    require_within(periodic, box_, self);
     const Vector image = periodic.image_in(box_, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;

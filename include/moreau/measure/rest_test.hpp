@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -19,8 +20,9 @@ struct RestOptions {
   /// Largest speed of the grains, the root of 2 x kinetic energy / mass [m/s]. If it is 0, it is the speed at
   /// which a grain rises by 1e-5 of the grain size under the gravity of the simulation.
   double speed = 0;
-  /// Largest part of the weight that walls and obstacles do not carry [-]. Without gravity and applied forces the
-  /// load is not tested.
+  /// Largest part of the load that walls and obstacles do not carry [-]. The load is the sum of the weights of the
+  /// grains and the forces applied to them. It is not tested if it is zero to rounding: without gravity and applied
+  /// forces, or with forces that cancel.
   double load = 0.01;
   /// Time for which speed and load must stay within their limits, and all steps must be solved [s].
   double time = 0.05;
@@ -51,11 +53,16 @@ class RestTest {
   /// Takes a step into account.
   /// @param simulation after the step
   /// @param report     what the step returned
-  /// @param step       its length [s]
+  /// @param step       its length, that of the report [s]
   /// @returns whether the packing is at rest
-  /// @throws std::invalid_argument if RestOptions::speed is 0 and there is no gravity
+  /// @throws std::invalid_argument if RestOptions::speed is 0 and there is no gravity, or if the step is not positive
+  ///         or not that of the report
   template <class Simulation>
   bool add(const Simulation& simulation, const StepReport& report, double step) {
+    require_positive(step, "RestTest::add", "step");
+    // The report of a simulation in single precision has the step in single precision.
+    require(std::abs(step - report.step) <= 1e-6 * step, "RestTest::add", "step", step,
+            "must be the step of the report");
     const double gravity = double(simulation.gravity().norm());
     require(options_.speed > 0 || gravity > 0, "RestTest::add", "options.speed", options_.speed,
             "must be > 0 without gravity");
@@ -102,7 +109,9 @@ class RestTest {
     using Vector = typename S::Vector;
     const auto& bodies = simulation.bodies();
     double mass = 0, energy = 0;
-    Vector load = Vector::Zero();  // of the grains that move [N]
+    // Of the grains that move: the sum of the loads, and of their norms [N].
+    Eigen::Matrix<double, S::dim, 1> load = Eigen::Matrix<double, S::dim, 1>::Zero();
+    double loads = 0;
     for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
       const std::size_t i = simulation.grain(k).index();
       if (bodies.is_prescribed(i)) continue;
@@ -110,7 +119,9 @@ class RestTest {
       const BodyMotion<S> motion{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
                                  bodies.pose[i].position, bodies.velocity[i]};
       energy += double(kinetic_energy<S>(motion).total());
-      load += bodies.grain_mass[i] * simulation.gravity() + linear<S>(bodies.force[i]);
+      const Vector weight = bodies.grain_mass[i] * simulation.gravity();
+      load += (weight + linear<S>(bodies.force[i])).template cast<double>();
+      loads += double(weight.norm() + linear<S>(bodies.force[i]).norm());
     }
     speed_ = mass > 0 ? std::sqrt(2 * energy / mass) : 0;
     // On walls and obstacles, from the grains that move.
@@ -126,7 +137,13 @@ class RestTest {
       carried += carries(point.b) ? impulse : Vector(-impulse);
     }
     carried /= static_cast<typename S::Scalar>(step);
-    missing_load_ = load.norm() > 0 ? double((carried - load).norm() / load.norm()) : 0;
+    // Each load has the rounding of its scalar, and each sum that of the total.
+    const double rounding =
+        2 * double(std::numeric_limits<typename S::Scalar>::epsilon()) +
+        double(simulation.grain_count()) * std::numeric_limits<double>::epsilon();
+    missing_load_ = load.norm() > rounding * loads
+                        ? (carried.template cast<double>() - load).norm() / load.norm()
+                        : 0;
   }
 
   RestOptions options_;

@@ -69,13 +69,15 @@ class VelocityField {
   /// @param position position of the grain's centre, world axes [m]; in a periodic cell, of any
   ///                 image
   /// @param velocity velocity of the grain's centre, world axes [m/s]
-  /// @param periodic periodic cell of the simulation
-  /// @throws std::invalid_argument if a number is not finite
+  /// @param periodic periodic cell of the simulation, Simulation::cell(): without it, only the given image counts
+  /// @throws std::invalid_argument if a number is not finite, or if the control volume is longer than the
+  ///         periodic cell, see require_within()
   void add(const VectorArgument<S>& position, const VectorArgument<S>& velocity,
            const PeriodicCell<S>& periodic = {}) {
     constexpr const char* self = "VelocityField::add";
     require(all_finite(position), self, "position", position, "must be finite");
     require(all_finite(velocity), self, "velocity", velocity, "must be finite");
+    require_within(periodic, box_, self);
     const Vector image = periodic.image_in(box_, position);
     const Vector share = (image - box_.lower).cwiseQuotient(box_.upper - box_.lower);
     if (!((share.array() >= 0).all() && (share.array() < 1).all())) return;

@@ -30,6 +30,22 @@ template <class Simulation>
   return least;
 }
 
+/// The smallest tension of the laws of the pairs that have a bond or had one [N]; infinite if there is none.
+template <class Simulation>
+[[gnu::cold]] double least_tension(const Simulation& simulation) {
+  const auto& bodies = simulation.bodies();
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](BodyId a, BodyId b) {
+    if (!simulation.contains(a) || !simulation.contains(b)) return;
+    const auto& law =
+        simulation.materials()(bodies.material[a.index()], bodies.material[b.index()]);
+    least = std::min(least, double(law.strength().tension));
+  };
+  for (const auto& bond : simulation.bonds()) look(bond.a, bond.b);
+  for (const auto& breakage : simulation.breakages()) look(breakage.a, breakage.b);
+  return least;
+}
+
 /// @param simulation under a law with bonds
 template <class Simulation>
 [[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation) {
@@ -44,10 +60,7 @@ template <class Simulation>
         "bond_touching() has bonded nothing: the smallest gap was % m. Place the bodies closer, or "
         "call it with a larger gap",
         {missed});
-  double tension = std::numeric_limits<double>::infinity();
-  for (const auto& law : simulation.materials().laws())
-    tension = std::min(tension, double(law.strength().tension));
-  const double weight = least_bonded_weight(simulation);
+  const double tension = least_tension(simulation), weight = least_bonded_weight(simulation);
   if (tension < weight && std::isfinite(weight))
     found.say(
         "a bond of % N (BondStrength::tension) cannot carry the lightest grain that was bonded, "

@@ -20,4 +20,12 @@ auto grain_in(const Simulation& simulation) {
   return [&simulation](std::size_t body) { return simulation.is_grain(body); };
 }
 
+/// Function: index of a body -> false for a wall or an obstacle, a grain of prescribed motion. Refers to the simulation.
+template <class Simulation>
+auto free_grain_in(const Simulation& simulation) {
+  return [&simulation](std::size_t body) {
+    return simulation.is_grain(body) && !simulation.bodies().is_prescribed(body);
+  };
+}
+
 }  // namespace moreau::detail
