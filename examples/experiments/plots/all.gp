@@ -109,5 +109,7 @@ if (has("dice")) {
        of(7, 1) using ($1 - 0.15):2 with points pt 2 ps 1.5 lc rgb own notitle, \
        of(3, 0) using ($1 + 0.15):2 with points pt 8 ps 1.5 lc rgb last title "moreau, friction 0.5", \
        of(5, 0) using ($1 + 0.15):2 with points pt 9 ps 1.5 lc rgb last notitle, \
-       of(7, 0) using ($1 + 0.15):2 with points pt 2 ps 1.5 lc rgb last notitle
+       of(7, 0) using ($1 + 0.15):2 with points pt 2 ps 1.5 lc rgb last notitle, \
+       of(11, 0) using 1:2 with points pt 12 ps 1.8 lw 2 lc rgb "black" title "sediment with rounded edges, friction 0.5"
+  set key top right; set autoscale
 }
