@@ -13,14 +13,19 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 output=bench-output filter=. header="" type="" peers=yes install=no
+usage() { sed -n '3,12s/^# \{0,1\}//p' "$0" >&2 && echo "bench/run.sh: $1" >&2 && exit 2; }
 while [ $# -gt 0 ]; do
+  case $1 in
+    --output | --filter) [ $# -ge 2 ] || usage "$1 needs a value" ;;
+    --shape) [ $# -ge 3 ] && [ -f "$2" ] || usage "--shape needs a header that exists and the name of a type" ;;
+  esac
   case $1 in
     --output) output=$2 && shift 2 ;;
     --shape) header=$(realpath "$2") type=$3 && shift 3 ;;
     --filter) filter=$2 && shift 2 ;;
     --no-peers) peers=no && shift ;;
     --install-peers) install=yes && shift ;;
-    *) sed -n '3,12s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+    *) usage "unknown option $1" ;;
   esac
 done
 "$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3

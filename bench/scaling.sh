@@ -8,6 +8,10 @@
 #   bench/scaling.sh scaling-output "polyhedron sphere" "1 9 18 81" 2
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
+if [[ ${1:-} == -* ]]; then
+  echo "usage: bench/scaling.sh [FOLDER [SHAPES [TILES [THREADS]]]]" >&2
+  exit 2
+fi
 folder=${1:-scaling-output} shapes=${2:-polyhedron sphere} tiles=${3:-1 9 18 81} threads=${4:-2}
 "$top/.ci/require" g++ cmake ninja-build pkg-config libeigen3-dev libbenchmark-dev python3
 command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox

@@ -9,6 +9,10 @@
 # takes seven minutes of CPU time, after building.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd) && top=$(cd "$here/../.." && pwd)
+if [[ ${1:-} == -* ]]; then
+  echo "usage: run.sh [folder] [grains in the plane] [grains in space] [samples]" >&2
+  exit 2
+fi
 folder=${1:-plane_and_space-output} plane=${2:-120} space=${3:-480} samples=${4:-3}
 "$top/.ci/require" g++ libeigen3-dev
 command -v gnuplot >/dev/null || "$top/.ci/require" gnuplot-nox
