@@ -16,10 +16,12 @@
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/parallel/thread_team.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/regular_shape.hpp"
 
 #include "conformance/shape.hpp"
 #include "conformance/world.hpp"
 #include "detect/shapes.hpp"
+#include "io/temporary_folder.hpp"
 #include "sanitized.hpp"
 #include "shape/compounds.hpp"
 #include "world/compound_box.hpp"
@@ -189,4 +191,38 @@ TEST_CASE_TEMPLATE("the solid fraction of compound grains", Part, Polygon<>, Pol
     CHECK(clipped_volume(grain, pose, box, workspace) ==
           doctest::Approx(clipped_volume(whole, pose, box, workspace)).epsilon(1e-12));
   }
+}
+
+TEST_CASE_TEMPLATE("a snapshot is read back after grains of other shapes were removed", Part,
+                   Polygon<double>, Polyhedron<double>) {
+  using S = SpaceOf<Part>;
+  using Grain = Compound<Part>;
+  using Law = SignoriniCoulomb<double>;
+  const Part cube = regular_shape<Part>(0.01);
+  const auto stone = [&](int count) {
+    std::vector<typename Grain::Part> parts;
+    for (int k = 0; k < count; ++k)
+      parts.push_back({cube, {typename S::Vector(0.0101 * k * S::Vector::UnitX()), S::identity()}});
+    return Grain(std::span<const typename Grain::Part>(parts));
+  };
+  Simulation<Grain, Law> world(0.01, Law(0.4));
+  const ShapeId shapes[] = {world.add_shape(stone(2)), world.add_shape(stone(3))};
+  std::vector<BodyId> grains;
+  for (int k = 0; k < 6; ++k)
+    grains.push_back(world.add_grain(
+        shapes[k % 2],
+        {typename S::Vector(0.0105 * k * S::Vector::Unit(S::dim - 1)), S::identity()}, 2500));
+  world.set_gravity(-9.81 * S::Vector::Unit(S::dim - 1));
+  for (int k = 0; k < 5; ++k) (void)world.step(1e-4);
+  const TemporaryFolder folder("compound");
+  write_snapshot(folder / "stones", world);
+  for (int k = 0; k < 5; ++k) (void)world.step(1e-4);
+  const auto expected = world.bodies().pose;
+  world.remove_grains(std::vector<BodyId>{grains[1], grains[3], grains[4]});
+  (void)world.step(1e-4);
+  reload_snapshot(folder / "stones", world);
+  for (int k = 0; k < 5; ++k) (void)world.step(1e-4);
+  REQUIRE(world.bodies().pose.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    CHECK(world.bodies().pose[k].position == expected[k].position);
 }

@@ -2,7 +2,9 @@
 // A run that is stopped and continued has the same bits as an uninterrupted run, and an incomplete
 // file is rejected.
 #include <doctest/doctest.h>
+#include <memory>
 #include <random>
+#include <vector>
 
 #include "moreau/boundary/drive.hpp"
 #include "moreau/boundary/servo.hpp"
@@ -128,6 +130,26 @@ TEST_CASE_TEMPLATE("a wall under pressure goes on with the same bits", ShapeT,
   CHECK(snapshot(simulation) == snapshot(box.simulation));
   run(simulation, load, 100), run(box.simulation, before, 100);
   CHECK(snapshot(simulation) == snapshot(box.simulation));
+}
+
+TEST_CASE_TEMPLATE("a copy goes on with the same bits after its source is gone", ShapeT,
+                   Polygon<double>, Polyhedron<double>) {
+  auto box = std::make_unique<BoxOfGrains<ShapeT>>(shaken_box<ShapeT>(20));
+  World<ShapeT> other = box->simulation, copy = box->simulation;
+  shake(box->simulation, 10);
+  const auto expected = box->simulation.bodies().pose;
+  // The memory of the source is used again by something else.
+  box.reset();
+  const std::vector<std::vector<double>> rubbish(100, std::vector<double>(40, 1e300));
+  std::vector<World<ShapeT>> runs;
+  runs.push_back(copy);
+  runs.push_back(other);  // moves or copies the first
+  for (auto* world : {&copy, &runs[0], &runs[1]}) {
+    shake(*world, 10);
+    REQUIRE(world->bodies().pose.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      CHECK(world->bodies().pose[k].position == expected[k].position);
+  }
 }
 
 TEST_CASE("a snapshot has whether deep overlaps are allowed") {

@@ -95,14 +95,14 @@ class Placement<ShapeT> {
 
   /// Begins to load the object that holds the shape into the cache. The functions below read it.
   void prefetch_shape() const { detail::prefetch(shape_, sizeof(ShapeT)); }
-  /// Begins to load what update() reads and writes for the same shape.
-  void prefetch_update() const {
+  /// Begins to load what update() reads and writes for a shape.
+  void prefetch_update(const ShapeT& shape) const {
     const auto load = [](const auto& rows) {
       detail::prefetch(rows.data(), std::size_t(rows.size()) * sizeof(Scalar));
     };
-    load(shape_->vertices());
-    load(shape_->face_normals());
-    load(shape_->face_offsets());
+    load(shape.vertices());
+    load(shape.face_normals());
+    load(shape.face_offsets());
     prefetch_rows();
   }
   /// Begins to load what the narrow phase reads of most pairs. Of the offsets it reads one or two, but for a search.

@@ -106,7 +106,7 @@ class ContactDetector {
     boxes_.resize(grains_.size());
     team_.share(grains_.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        if constexpr (prefetches) detail::prefetch_update(std::span(grains_), k, end);
+        if constexpr (prefetches) detail::prefetch_update(std::span(grains_), shape_of, k, end);
         place_one(grains_[k], boxes_[k], shape_of(k), poses);
       }
     });
@@ -169,7 +169,8 @@ class ContactDetector {
   /// @throws std::invalid_argument if a pair is not of these grains
   void rebuild(auto&& add_all) {
     const bool stale = near_.is_stale();
-    grains_.clear(), late_.clear(), walls_.clear(), cylinders_.clear(), meshes_.clear();
+    grains_.clear(), late_.clear(), spare_.clear();
+    walls_.clear(), cylinders_.clear(), meshes_.clear();
     widest_ = 0;
     add_all();
     near_.set_stale(stale);

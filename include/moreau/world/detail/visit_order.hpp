@@ -15,11 +15,16 @@
 
 namespace moreau::detail {
 
-/// Before grain k is placed: begins to load what the updates of the next grains read and write.
+/// Before grain k is placed: begins to load what the updates of the next grains read and write. The shapes that the grains
+/// were placed with may be gone: those of a simulation that was copied.
+/// @param shape_of k -> shape of grain k
 /// @param end the first grain that is not placed
-void prefetch_update(auto grains, std::size_t k, std::size_t end) {
-  if (k + 6 < end) grains[k + 6].placed.prefetch_shape();
-  if (k + 3 < end) grains[k + 3].placed.prefetch_update();
+void prefetch_update(auto grains, const auto& shape_of, std::size_t k, std::size_t end) {
+  if (k + 6 < end) {
+    const auto& shape = shape_of(k + 6);
+    prefetch(&shape, sizeof(shape));
+  }
+  if (k + 3 < end) grains[k + 3].placed.prefetch_update(shape_of(k + 3));
 }
 
 /// The order in which contact detection visits grains: neighbours in space follow one another. It
