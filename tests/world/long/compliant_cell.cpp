@@ -101,7 +101,8 @@ TEST_CASE("a cell reaches prescribed stresses, at rest and sheared") {
   }
   CHECK(std::abs(work - taken - energy) < 1e-9 * work);
 
-  control.mass(0, 0) = 0;  // its width stays, its height has the prescribed stress
+  // Its width stays, its height has the prescribed stress.
+  control.mass(0, 0) = control.stress(0, 0) = 0;
   control.rate(0, 1) = 1;
   control.damping = 2;
   simulation.control_cell(control);
