@@ -224,3 +224,29 @@ TEST_CASE_TEMPLATE("a step that is refused deforms no cell", ShapeT,
   CHECK((world.cell().vectors() - copy.cell().vectors()).norm() < 1e-14 * vectors.norm());
   CHECK((world.pose(one).position - copy.pose(one).position).norm() < 1e-14);
 }
+
+TEST_CASE_TEMPLATE("the width of a flake does not depend on its axes", ShapeT, Polygon<double>,
+                   Polyhedron<double>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  // A flake of 1 mm x 50 mm, whose vertices are given in oblique axes, as those of a scan.
+  const auto turn = S::exp(S::Angular::Constant(0.6));
+  std::vector<Vector> corners;
+  for (int k = 0; k < 1 << S::dim; ++k) {
+    Vector x;
+    for (int axis = 0; axis < S::dim; ++axis)
+      x[axis] = (k >> axis & 1 ? 0.5 : -0.5) * (axis + 1 == S::dim ? 0.001 : 0.05);
+    corners.push_back(turn * x);
+  }
+  const ShapeT flake{std::span<const Vector>(corners)};
+  CHECK(detail::smallest_width(flake) == doctest::Approx(0.001));
+  Simulation<ShapeT, SignoriniCoulomb<double>> world(0.05, SignoriniCoulomb<double>(0.4));
+  const ShapeId shape = world.add_shape(flake);
+  const Vector up = turn * Vector::Unit(S::dim - 1);
+  world.add_grain(shape, {Vector::Zero(), S::identity()}, 2000);
+  const BodyId second = world.add_grain(shape, {Vector(0.0004 * up), S::identity()}, 2000);
+  CHECK_THROWS_WITH_AS((void)world.step(1e-4), doctest::Contains("half of the smallest width"),
+                       std::invalid_argument);
+  world.set_pose(second, {Vector(0.0006 * up), S::identity()});
+  (void)world.step(1e-4);
+}

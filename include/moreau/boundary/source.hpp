@@ -97,10 +97,10 @@ class Source {
     require_positive(step, "Source::apply", "step");
     GrainSum now;
     added_.clear();
+    require_room(simulation);
     due_ += options_.rate * double(step);
     if (simulation.grain_count() >= options_.grain_limit) due_ = std::min(due_, 1.0);
     if (due_ < 1 || simulation.grain_count() >= options_.grain_limit) return now;
-    require_room(simulation);
     find_obstacles(simulation);
     while (due_ >= 1 && simulation.grain_count() < options_.grain_limit && add(simulation)) {
       due_ -= 1;

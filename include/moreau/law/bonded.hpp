@@ -64,6 +64,10 @@ class Bonded : public RollingResistance<T> {
     require_positive(strength.tension, self, "tension");
     require_positive(strength.shear, self, "shear");
     require_positive(strength.bending, self, "bending");
+    require(std::isfinite(strength.shear / strength.tension), self, "shear / tension",
+            strength.shear / strength.tension, "must be finite");
+    require(std::isfinite(strength.bending / strength.tension), self, "bending / tension",
+            strength.bending / strength.tension, "m must be finite");
     require(std::isfinite(strength.fracture_energy) && strength.fracture_energy >= 0, self,
             "fracture_energy", strength.fracture_energy, "must be finite and >= 0");
   }

@@ -31,6 +31,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
+#include "moreau/world/detail/smallest_width.hpp"
 #include "moreau/world/wall_bodies.hpp"
 
 namespace moreau {
@@ -325,12 +326,10 @@ class Assembly {
   /// A cell with a mesh wall is open.
   static void require_fits(const MeshWall<S>&, const Pose<S>&, const PeriodicCell<S>&,
                            const char*) {}
-  /// The smallest extent of the bounding box of a grain in its own frame [m]; infinite for a wall.
+  /// The smallest width of a grain (smallest_width.hpp) [m]; infinite for a wall.
   Scalar width_of(std::uint32_t body) const {
     if (!(bodies_.grain_mass[body] > 0)) return std::numeric_limits<Scalar>::infinity();
-    const std::size_t k = number_of_grain(bodies_.id[body], "Simulation::step");
-    const Aabb<S> box = shape_of_grain(k).bounding_box(Pose<S>());
-    return (box.upper - box.lower).minCoeff();
+    return smallest_width(shape_of_grain(number_of_grain(bodies_.id[body], "Simulation::step")));
   }
   [[noreturn]] void throw_deep_overlap(const Contact<S>& contact, Scalar most,
                                        const char* function) const {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/pose.hpp"
+#include "moreau/shape/concepts.hpp"
+
+namespace moreau::detail {
+
+/// A width below which no thin grain lies: of a polytope the smallest one along the normal of a face, of a compound that of
+/// its thinnest part, of another shape the smallest extent of its box in body axes [m].
+template <class ShapeT>
+typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
+  using S = SpaceOf<ShapeT>;
+  using Scalar = typename S::Scalar;
+  if constexpr (CompoundShape<ShapeT>) {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    for (const auto& part : shape.parts()) least = std::min(least, smallest_width(part.shape));
+    return least;
+  } else if constexpr (Polytope<ShapeT>) {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    for (Eigen::Index f = 0; f < shape.face_normals().rows(); ++f) {
+      Scalar depth = 0;  // of the shape below the face
+      for (Eigen::Index v = 0; v < shape.vertices().rows(); ++v)
+        depth =
+            std::max(depth, shape.face_offsets()[f] -
+                                Scalar(shape.face_normals().row(f).dot(shape.vertices().row(v))));
+      least = std::min(least, depth);
+    }
+    return least;
+  } else if constexpr (requires { shape.visit([](const auto&) {}); }) {
+    return shape.visit([](const auto& held) { return smallest_width(held); });
+  } else {
+    const Aabb<S> box = shape.bounding_box(Pose<S>());
+    return (box.upper - box.lower).minCoeff();
+  }
+}
+
+}  // namespace moreau::detail
