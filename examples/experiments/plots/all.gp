@@ -44,7 +44,7 @@ if (has("squeeze_10000_SignoriniCoulomb_500")) {
   set key top right
 }
 if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
-  set output folder . "/silo.png"
+  set output folder . "/silo_count.png"
   set title "Silo: balls below the orifice, M1, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:1.5]
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \

@@ -195,14 +195,14 @@ template <class Expression, class F>
 ForceDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> ForceDrive<typename Expression::PlainObject, F>;
 /// The direction can be a list of components, such as {0, 0, 1}.
-template <class T, int N, class F>
-ForceDrive(BodyId, const T (&)[N], F) -> ForceDrive<detail::ListVector<T, N>, F>;
+template <class T, std::size_t N, class F>
+ForceDrive(BodyId, const T (&)[N], F) -> ForceDrive<detail::ListVector<T, int(N)>, F>;
 /// The direction can be an Eigen expression, such as -Vector::UnitX().
 template <class Expression, class F>
 VelocityDrive(BodyId, const Eigen::MatrixBase<Expression>&, F)
     -> VelocityDrive<typename Expression::PlainObject, F>;
 /// The direction can be a list of components, such as {0, 0, 1}.
-template <class T, int N, class F>
-VelocityDrive(BodyId, const T (&)[N], F) -> VelocityDrive<detail::ListVector<T, N>, F>;
+template <class T, std::size_t N, class F>
+VelocityDrive(BodyId, const T (&)[N], F) -> VelocityDrive<detail::ListVector<T, int(N)>, F>;
 
 }  // namespace moreau

@@ -215,8 +215,8 @@ class IslandNewton {
   static constexpr double visits_per_contact = 5 * S::angular_dim,
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
-  /// Points on sliding faces, at least: three points of a single face bear a unique pressure.
-  static constexpr std::size_t least_sliding = S::dim == 3 ? 4 : 2;
+  /// Points on sliding faces, at least. Fewer points, in space three of one face, bear a unique pressure.
+  static constexpr std::size_t least_sliding = 2 * (S::dim - 1);
   static constexpr double slow_q =
       0.7;  ///< the same, at which limits of friction converge too slowly
 
