@@ -339,3 +339,56 @@ TEST_CASE_TEMPLATE(
   }
   CHECK(apart == 0);
 }
+
+TEST_CASE("bridge: points beyond its rupture distance take no share of the force") {
+  using S = Space<2>;
+  using Law = Bridged<LinearCohesion<double>, SignoriniCoulomb<double>>;
+  const double force = 1e-3, up[] = {0.8, 1.2};
+  // A house upside down: its point touches the ceiling, the eaves are 0.05 mm below, within the margin of 0.2 mm.
+  const Polygon<double> house(
+      {{-4e-3, -8e-3}, {4e-3, -8e-3}, {4e-3, -5e-5}, {0, 0}, {-4e-3, -5e-5}});
+  for (const double share : up) {
+    Simulation<Polygon<double>, Law> world(
+        0.01, Law(LinearCohesion<double>(force, 1e-5), SignoriniCoulomb<double>(0.3)));
+    world.add_wall({0, -1}, {0, 0});
+    const BodyId grain =
+        world.add_grain(world.add_shape(house), {house.centroid_of_input(), S::identity()}, 1000);
+    const double top = world.pose(grain).position[1];
+    const int ramp = 1000;
+    for (int k = 0; k < 2 * ramp; ++k) {
+      world.set_force(grain, {0, -force * share * std::min(1., double(k) / ramp)});
+      world.step(1e-5);
+    }
+    CAPTURE(share);
+    CHECK((top - world.pose(grain).position[1] < 1e-7) == (share < 1));
+  }
+}
+
+TEST_CASE_TEMPLATE(
+    "Cohesive: without a range it ends at the margin, however far another pair attracts", X,
+    Disk<double>, Ball<double>) {
+  using S = SpaceOf<X>;
+  using Law = Cohesive<SignoriniCoulomb<double>>;
+  using Vector = typename S::Vector;
+  const SignoriniCoulomb<double> rigid(0.5);
+  Materials<Law> materials(2, Law(rigid, 1e-6));
+  materials.set(MaterialId(1), MaterialId(1), Law(rigid, 1e-7, radius));
+  Simulation<X, Law> world(2 * radius, materials);
+  const ShapeId shape = world.add_shape(X(radius));
+  const auto pair = [&](double y, MaterialId material, double gap) {
+    const BodyId first =
+        world.add_grain(shape, {Vector(y * Vector::UnitY()), S::identity()}, 1000, material);
+    world.add_grain(
+        shape, {Vector((2 * radius + gap) * Vector::UnitX() + y * Vector::UnitY()), S::identity()},
+        1000, material);
+    return first;
+  };
+  const double margin = 0.02 * 2 * radius;
+  const BodyId far = pair(0, MaterialId(0), 3 * margin),
+               near = pair(10 * radius, MaterialId(0), 0.5 * margin),
+               other = pair(20 * radius, MaterialId(1), 3 * margin);
+  world.step(1e-6);
+  CHECK(world.velocity(far).isZero(0));
+  CHECK(world.velocity(near)[0] > 0);
+  CHECK(world.velocity(other)[0] > 0);
+}

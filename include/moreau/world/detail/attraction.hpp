@@ -55,7 +55,7 @@ class Attraction {
     if constexpr (BondingLaw<Law, S>)
       bonds.attractions(context.materials, contacts, pulls_);
     else
-      attractions(context.bodies, context.materials, contacts, pulls_);
+      attractions(context.bodies, context.materials, contacts, context.margin, pulls_);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       pulls_[c] *= context.step;
@@ -116,7 +116,7 @@ class Attraction {
     } else {
       pushes_before_ = context.previous.impulses;
       attractions(context.bodies, replaced_.empty() ? context.materials : replaced_[0],
-                  context.previous, pulls_before_);
+                  context.previous, context.margin, pulls_before_);
       for (std::size_t c = 0; c < pushes_before_.size(); ++c)
         pushes_before_[c][0] += last_step * pulls_before_[c];
       return pushes_before_;
