@@ -953,27 +953,3 @@ TEST_CASE_TEMPLATE("bond: in a step that is repeated, a torque acts once", Shape
   }
   CHECK(repeated > 0);
 }
-
-TEST_CASE_TEMPLATE("the rotation between two frames, up to half a turn", S, Space<2>, Space<3>,
-                   Space<3, float>) {
-  using T = typename S::Scalar;
-  using Matrix = typename S::Matrix;
-  const Matrix from = Matrix::Identity();
-  for (int axis = 0; axis < S::angular_dim; ++axis)
-    for (const T angle : {T(0), T(1e-5), T(1), T(3.1), std::numbers::pi_v<T>}) {
-      typename S::Angular turn = S::Angular::Zero();
-      turn[axis] = angle;
-      const Matrix to = S::exp(turn).toRotationMatrix();
-      const auto found = detail::rotation_between<S>(from, to);
-      CHECK(std::abs(found.norm() - angle) < T(100) * std::numeric_limits<T>::epsilon());
-    }
-  if constexpr (S::dim == 3) {
-    Matrix half = -Matrix::Identity();  // exactly half a turn
-    half(1, 1) = 1;
-    const auto found = detail::rotation_between<S>(from, half);
-    CHECK(std::abs(found[1]) == std::numbers::pi_v<T>);
-    CHECK(found[0] == 0);
-  } else {
-    CHECK(detail::rotation_between<S>(from, Matrix(-from))[0] == std::numbers::pi_v<T>);
-  }
-}

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <tuple>
 
@@ -82,22 +81,6 @@ struct BondPlace {
   typename S::Scalar measured;  ///< of the stretch as it is computed from the positions [m]
 };
 
-/// The rotation vector of a rotation by 180 degrees, whose matrix is 2 n n^T - 1 for the axis n [rad].
-template <class S>
-typename S::Angular half_turn([[maybe_unused]] const typename S::Matrix& rotation) {
-  using Scalar = typename S::Scalar;
-  if constexpr (S::dim == 2) {
-    return S::Angular::Constant(std::numbers::pi_v<Scalar>);
-  } else {
-    const typename S::Matrix twice = rotation + S::Matrix::Identity();
-    Eigen::Index most = 0;
-    for (Eigen::Index k = 1; k < S::dim; ++k)
-      if (twice(k, k) > twice(most, most)) most = k;
-    const typename S::Vector axis = twice.col(most);
-    return std::numbers::pi_v<Scalar> / axis.norm() * axis;
-  }
-}
-
 /// The rotation vector of the rotation that takes the orthonormal columns of `from` to those of `to` [rad].
 template <class S>
 typename S::Angular rotation_between(const typename S::Matrix& from, const typename S::Matrix& to) {
@@ -107,7 +90,6 @@ typename S::Angular rotation_between(const typename S::Matrix& from, const typen
   const Scalar sine = sum.norm() / 2;
   const Scalar cosine = ((from.transpose() * to).trace() - Scalar(S::dim - 2)) / 2;
   if (sine < Scalar(1e-3) && cosine > 0) return sum / 2 * (1 + sine * sine / 6);
-  if (!(sine > 0)) return half_turn<S>(typename S::Matrix(to * from.transpose()));
   return sum * (std::atan2(sine, cosine) / (2 * sine));
 }
 
