@@ -10,8 +10,9 @@
 
 namespace moreau::detail {
 
-/// A width below which no thin grain lies: of a polytope the smallest one along the normal of a face, of a compound that of
-/// its thinnest part, of another shape the smallest extent of its box in body axes [m].
+/// The smallest width of a grain, relative to which overlaps at the start are deep: of a polytope the smallest one along the
+/// normal of a face, of a compound that of its thinnest part, of another shape the smallest extent of its box in body axes
+/// [m].
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
   using S = SpaceOf<ShapeT>;
