@@ -93,6 +93,8 @@ class ColouredSweeps {
     kernel_.velocity().forget_change();
     acceleration_.restart();
   }
+  /// Whether the sweeps that follow are accelerated.
+  void accelerate(bool enabled) { acceleration_ = Acceleration<T>(enabled); }
   /// An accelerated sweep over the active groups. While impulses are mixed it has no extrapolation,
   /// and goes backward and forward in turn.
   void sweep_active(const Team& team) {
