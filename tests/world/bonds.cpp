@@ -719,6 +719,35 @@ TEST_CASE("bond: a broken bond is a contact with friction") {
   CHECK(agree(double(std::abs(contacts.impulses[0][1])), 3.9e-4, 1e-2));  // 0.4 * 10 would slip
 }
 
+TEST_CASE_TEMPLATE("bond: the contact of a broken bond has no spring of the bond", X,
+                   MOREAU_TYPES((Case<Circle, Soft>, Case<Globe, Soft>),
+                                (Case<Polygon<>, Soft>, Case<Polyhedron<>, Soft>,
+                                 Case<BallIn<Space<2, float>>, Compliant<Bonded<float>>>,
+                                 Case<BallIn<Space<3, float>>, Compliant<Bonded<float>>>))) {
+  using Law = typename X::LawOf;
+  Row<typename X::Shape, Law> row(2);
+  using T = typename decltype(row)::T;
+  row.load(-10, 8, -8 * radius);  // the bond bears up to 12 + 0.6 * 10 aside, friction 0.4 * 10
+  for (int k = 0; k < 200; ++k) CHECK(row.world.step(T(5e-3)).bonds == 1);
+  row.world.set_materials(Materials<Law>(1, Make<Law>::law(0, 1e-6)));
+  const T h = T(1e-5);  // too short for new springs
+  CHECK(row.world.step(h).broken_bonds == 1);
+  row.load(-10, 0, 0);
+  const StepReport report = row.world.step(h);
+  const auto& contacts = row.world.contacts();
+  REQUIRE(contacts.size() > 0);
+  double push = 0, aside = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    CHECK(contacts.variants[c] == 0);
+    push += double(contacts.impulses[c][0] / h);
+    aside += double(contacts.impulses[c][1] / h);
+  }
+  CAPTURE(push);
+  CAPTURE(report.elastic_energy);
+  CHECK(push > 5);
+  CHECK(std::abs(aside) < 0.5);
+}
+
 TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
   using World = Row<Circle, Soft>;
   World row(4, 1e-3), copy(4, 1e-3);

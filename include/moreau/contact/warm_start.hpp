@@ -192,19 +192,28 @@ void for_each_heir(const DetectedContacts<S>& before, const DetectedContacts<S>&
 /// @param old        one per contact of `before`
 /// @param out        in and out: one per contact of `now`, as carry() left it
 /// @param turn       ImpulseTurn or SpringTurn
+/// @param hands_over function: key of a contact of the step before -> whether it hands its impulse over
 /// @returns how many contacts handed their impulse over
 template <class S, int Rows, class Row>
 std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const List<Row>& old,
-                      List<Row>& out, const auto& turn) {
+                      List<Row>& out, const auto& turn, const auto& hands_over) {
   std::size_t count = 0;
   detail::for_each_heir<S>(
       before, now, old, [](const ContactKey&) { return true; },
       [&](std::size_t i, std::size_t j) {
+        if (!hands_over(before.keys[j])) return;
         if (out[i].isZero(0) && !before.variants.empty()) now.variants[i] = before.variants[j];
         out[i] += detail::carried<S>(turn, before.points[j], now.points[i], old[j]);
         ++count;
       });
   return count;
+}
+
+/// The same for all contacts.
+template <class S, int Rows, class Row>
+std::size_t hand_over(const Contacts<S, Rows>& before, Contacts<S, Rows>& now, const List<Row>& old,
+                      List<Row>& out, const auto& turn) {
+  return hand_over(before, now, old, out, turn, [](const ContactKey&) { return true; });
 }
 
 /// Hands the memory of contacts whose key is gone to the nearest contact of the same pair of bodies

@@ -62,6 +62,13 @@
 // An impact then has the restitution e + O(eps). With e = 0 the springs return at most a share eps of
 // an impact's velocity, because implicit Euler damps what the step does not resolve.
 //
+// If the number of contact points of the pair changes, and with it C, all entries of s are multiplied by
+// sqrt(C before / C), so that the springs keep their energy. With e = 0 the tangential springs keep their force.
+//
+// Of a law that attracts by the force T, r and s are those of p = r + h T n (world/detail/pushes.hpp): the springs bear
+// the push against the attraction. Springs of a bond have no memory of impulses but are as long as the bond is stretched
+// (world/detail/bond_list.hpp), and when it breaks they leave nothing to the contact of its pair.
+//
 // Source of springs as a regularization with one diagonal matrix for stiffness and step: C.
 // Lacoursiere, Ghosts and Machines: Regularized Variational Methods for Interactive Simulations of
 // Multibodies with Dry Frictional Contacts, PhD thesis, Umea University, 2007.

@@ -14,8 +14,10 @@
 
 #include "moreau/contact/warm_start.hpp"
 #include "moreau/core/list.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/world/bond.hpp"
 
 namespace moreau::detail {
 
@@ -27,7 +29,8 @@ class Pushes {
   using Row = typename Operator::Vector;
 
   /// Fills the rows from the impulses of the step before: the first guess of rigid contacts, the memory of the springs of
-  /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact.
+  /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact. A bond
+  /// with springs leaves nothing: its springs have given up their energy when it broke.
   /// @param before contacts of the step before
   /// @param old    their impulses, or their pushes against the attraction of that step, in their frames [N s]
   /// @param now    in, out: contacts of this step, which get the variants of their laws
@@ -36,7 +39,13 @@ class Pushes {
   std::size_t carry(const ContactsOf<Law, S>& before, const List<Row>& old, ContactsOf<Law, S>& now,
                     const auto& turn, const Operator& op, const Team& team) {
     const std::size_t found = moreau::carry(before, now, old, rows_, turn, team);
-    if (found < before.size()) hand_over(before, now, old, rows_, turn);
+    if (found < before.size()) {
+      if constexpr (CompliantLaw<Law, S> && BondingLaw<Law, S>)
+        hand_over(before, now, old, rows_, turn,
+                  [](const ContactKey& key) { return !is_bond(key); });
+      else
+        hand_over(before, now, old, rows_, turn);
+    }
     op.to_rows(rows_, team);
     return found;
   }
