@@ -184,6 +184,22 @@ TEST_CASE_TEMPLATE("rotations about one axis add", S, MOREAU_SPACES) {
   }
 }
 
+TEST_CASE_TEMPLATE("log is the inverse of exp, up to half a turn", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  using Angular = typename S::Angular;
+  typename S::Angular axis = S::Angular::Constant(T(0.6));
+  axis[0] = T(-0.8);
+  axis.normalize();
+  CHECK(S::log(S::identity()) == Angular::Zero());
+  for (const T angle : {T(1e-30), T(1e-8), T(1e-3), T(1), T(2), T(3.141)}) {
+    CAPTURE(angle);
+    const Angular w = angle * axis;
+    CHECK((S::log(S::exp(w)) - w).norm() <= 8 * epsilon<S> * angle);
+    const Angular beyond = w * ((angle + 2 * std::numbers::pi_v<T>) / angle);  // one turn more
+    CHECK((S::log(S::exp(beyond)) - w).norm() <= 32 * epsilon<S>);
+  }
+}
+
 TEST_CASE_TEMPLATE("exp agrees with Eigen's angle and axis", T, MOREAU_TYPES((double), (float))) {
   using S = Space<3, T>;
   Draw<S> draw;

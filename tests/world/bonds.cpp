@@ -982,3 +982,57 @@ TEST_CASE_TEMPLATE("bond: in a step that is repeated, a torque acts once", Shape
   }
   CHECK(repeated > 0);
 }
+
+TEST_CASE_TEMPLATE("the rotation between two frames, up to half a turn", S, Space<2>, Space<3>,
+                   Space<2, float>, Space<3, float>) {
+  using T = typename S::Scalar;
+  using Matrix = typename S::Matrix;
+  using Angular = typename S::Angular;
+  const T rounding = 32 * std::numeric_limits<T>::epsilon(), pi = std::numbers::pi_v<T>;
+  Angular tilt = Angular::Constant(T(0.3));
+  tilt[0] = T(-1.1);
+  std::vector<Angular> axes{Angular(tilt.normalized())};
+  for (int k = 0; k < S::angular_dim; ++k) axes.push_back(Angular::Unit(k));
+  for (const Matrix& from : {Matrix(Matrix::Identity()), Matrix(S::exp(tilt).toRotationMatrix())})
+    for (const Angular& axis : axes)
+      for (const T angle : {T(0), T(1e-5), T(1), T(1.6), T(3), T(3.1415), pi - 3 * rounding, pi}) {
+        CAPTURE(angle);
+        const Matrix turn = S::exp(angle * axis).toRotationMatrix();
+        const Angular found = detail::rotation_between<S>(from, turn * from);
+        CHECK(std::abs(found.norm() - angle) < rounding);
+        CHECK((S::exp(found).toRotationMatrix() - turn).norm() < rounding);
+      }
+  // Exactly half a turn.
+  Matrix half = -Matrix::Identity();
+  if (S::dim > 2) half(S::dim - 1, S::dim - 1) = 1;
+  Angular found = detail::rotation_between<S>(Matrix::Identity(), half);
+  CHECK(std::abs(found[S::angular_dim - 1]) == pi);
+  CHECK(found.norm() == pi);
+}
+
+TEST_CASE_TEMPLATE("bond: a body that was turned by 180 degrees turns back", X,
+                   MOREAU_TYPES((Case<Circle, Soft>, Case<Globe, Rigid>),
+                                (Case<Circle, Rigid>, Case<Globe, Soft>,
+                                 Case<BallIn<Space<2, float>>, Bonded<float>>,
+                                 Case<BallIn<Space<3, float>>, Bonded<float>>))) {
+  using Law = typename X::LawOf;
+  using R = Row<typename X::Shape, Law>;
+  using S = typename R::S;
+  using T = typename R::T;
+  for (const T sign : {T(1), T(-1)}) {
+    R row(2, 0, 1000, 1e6);
+    Pose<S> pose = row.world.pose(row.last());
+    typename S::Angular turn = S::Angular::Zero();
+    turn[0] = sign * std::numbers::pi_v<T>;  // in space about the bond, which does not bend
+    pose.rotation = S::exp(turn);
+    row.world.set_pose(row.last(), pose);
+    for (int k = 0; k < 60; ++k) {
+      row.world.step(T(1e-3));
+      REQUIRE(row.world.pose(row.last()).is_finite());
+      REQUIRE(row.world.bonds().size() == 1);
+    }
+    pose = row.world.pose(row.last());
+    if (!R::is_compliant)
+      CHECK((pose.rotation.toRotationMatrix() - S::Matrix::Identity()).norm() < 0.01);
+  }
+}

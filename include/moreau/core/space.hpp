@@ -81,6 +81,8 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
     return std::abs(q.angle()) <= pi ? q : Rotation(std::remainder(q.angle(), 2 * pi));
   }
   static Rotation identity() { return Rotation(T(0)); }  ///< no rotation
+  /// w with exp(w) = q and |w| <= pi [rad].
+  static Angular log(const Rotation& q) { return Angular(normalized(q).angle()); }
   /// Whether the angle is finite.
   static bool is_finite(const Rotation& q) { return std::isfinite(q.angle()); }
   /// Whether q is a valid rotation. Every finite angle is one.
@@ -142,6 +144,13 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   /// Removes the rounding errors that many small rotations cause: q scaled to unit length.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
   static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
+  /// w with exp(w) = q and |w| <= pi [rad].
+  static Angular log(const Rotation& q) {
+    const T sine = q.vec().norm(), cosine = q.w();  // of half the angle
+    if (!(sine > 0)) return 2 * q.vec();
+    const T half = cosine < 0 ? std::atan2(-sine, -cosine) : std::atan2(sine, cosine);
+    return Angular(2 * half / sine * q.vec());
+  }
   /// Whether all components are finite.
   static bool is_finite(const Rotation& q) { return all_finite(q.coeffs()); }
   /// Whether q is a valid rotation: a quaternion of unit length, within 1e-5.

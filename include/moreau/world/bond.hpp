@@ -90,6 +90,8 @@ typename S::Angular rotation_between(const typename S::Matrix& from, const typen
   const Scalar sine = sum.norm() / 2;
   const Scalar cosine = ((from.transpose() * to).trace() - Scalar(S::dim - 2)) / 2;
   if (sine < Scalar(1e-3) && cosine > 0) return sum / 2 * (1 + sine * sine / 6);
+  // The sine vanishes at half a turn, so that the axis would be lost.
+  if (cosine < 0) return S::log(typename S::Rotation(to * from.transpose()));
   return sum * (std::atan2(sine, cosine) / (2 * sine));
 }
 
