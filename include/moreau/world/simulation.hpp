@@ -179,7 +179,7 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis or with a spin that turns it across the axis, a mesh wall, or a cell not
+  ///         a wall across the axis or with a spin about another one, a mesh wall, or a cell not
   ///         longer than two of the widest grain with margin and skins: a pair could touch through two images
   void set_periodic(int axis, Scalar lower, Scalar upper);
   /// Makes the world periodic along D vectors, with a cell that can deform (control_cell()). Poses are not
@@ -203,24 +203,23 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Sets the pose of a body, world axes [m]; its velocity does not change. See allow_overlaps().
   /// @throws std::invalid_argument for a body that is not of this simulation, a pose that is not finite
-  ///         or whose rotation is not of unit length, a wall across a periodic axis, or one that its spin turns across it
+  ///         or whose rotation is not of unit length, or a wall across a periodic axis
   void set_pose(BodyId body, const Pose<S>& pose) {
     constexpr const char* self = "Simulation::set_pose";
     assembly_.require_body(body, self);
     assembly_.require_pose(pose, self);
     assembly_.require_walls_fit(cell(), body, pose, self);
-    assembly_.require_walls_stay(cell(), body, pose, this->spin(body), self);
     assembly_.bodies().pose[body.index()] = pose;
     assembly_.note_placed(body.index());
   }
   /// Sets the angular velocity, world axes [rad/s]: a vector in space; in the plane a number, > 0
   /// from x to y. A body without inertia, such as a wall, and one whose motion is prescribed keep it.
   /// @throws std::invalid_argument for a body that is not of this simulation, a spin that is not finite, or
-  ///         the spin of a half-space or a cylinder that turns it across a periodic axis
+  ///         the spin of a half-space or a cylinder about another axis than the only periodic one
   void set_spin(BodyId body, const AngularArgument<S>& spin) {
     constexpr const char* self = "Simulation::set_spin";
     assembly_.require_body(body, self, "spin", spin);
-    assembly_.require_walls_stay(cell(), body, this->pose(body), spin, self);
+    assembly_.require_walls_stay(cell(), body, spin, self);
     angular<S>(assembly_.bodies().velocity[body.index()]) = spin;
     this->note_speed_of(body);
   }

@@ -19,7 +19,7 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_periodic(int axis, 
   PeriodicCell<S> cell = detector_.cell();
   cell.set(axis, lower, upper, self);
   const auto require_stays = [&](BodyId wall) {
-    assembly_.require_walls_stay(cell, wall, this->pose(wall), this->spin(wall), self);
+    assembly_.require_walls_stay(cell, wall, this->spin(wall), self);
   };
   for (const BodyId wall : assembly_.walls()) require_stays(wall);
   for (const CylinderBody<S>& wall : assembly_.cylinders()) require_stays(wall.body);
