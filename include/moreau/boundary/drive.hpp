@@ -5,6 +5,10 @@
 //   const ForceDrive shake(wall, -Vector::UnitX(), HarmonicForce(100, 500, 5));
 //   for (...) { shake.apply(world, h); world.step(h); }
 //
+// A body has one drive: each apply() replaces the whole force, or the whole velocity along the axes that are prescribed.
+// Of two drives of one body only that applied last acts; they do not add. Along several axes, call
+// set_force() or set_velocity() with the sum before each step.
+//
 // The drive evaluates the function at the middle of the step. This makes the motion second-order
 // accurate in the step, for forces and for velocities.
 #pragma once
