@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Hulls of many points, and their simplification: the cost grows like n log n for every kind of input,
 // and simplify_hull() removes the vertices that brute force removes.
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <doctest/doctest.h>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "moreau/shape/compound.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
 using namespace moreau;
@@ -167,7 +171,8 @@ TEST_CASE("large hulls are simplified in a time that does not grow like the squa
     all += cpu_seconds([&] { fewer = simplify_hull(shape, 40).shape; });
     CHECK(fewer.vertex_count() == 40);
     for (Eigen::Index i = 0; i < fewer.vertices().rows(); i += 7) {  // no vertex is outside
-      const Vector x = fewer.vertices().row(i).transpose() + fewer.centroid_of_input();
+      const Vector x = fewer.vertices().row(i).transpose() + fewer.centroid_of_input() -
+                       shape.centroid_of_input();
       CHECK(((shape.face_normals() * x).array() - shape.face_offsets()).maxCoeff() < 1e-12);
     }
   }
@@ -185,6 +190,43 @@ TEST_CASE("a simplified hull in single precision") {
       CHECK(simplify_hull(shape, 20).shape.vertex_count() <= 20);
       CHECK(simplify_hull(shape, 20).shape.vertex_count() >= 18);
     }
+}
+
+TEST_CASE_TEMPLATE("a simplified hull stays where its points were given", ShapeT, Polygon<>,
+                   Polyhedron<>, Polygon<float>, Polyhedron<float>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using V = typename S::Vector;
+  std::mt19937 random(5);
+  std::normal_distribution<T> normal;
+  std::vector<V> points;
+  V middle = V::Constant(3);
+  middle[0] = -7;
+  for (int k = 0; k < 60; ++k)
+    points.push_back(middle + V(V::NullaryExpr([&] { return normal(random); })).normalized());
+  const ShapeT shape{std::span<const V>(points)};
+  for (const std::size_t n : {std::size_t(5), std::size_t(20), std::size_t(1000)}) {
+    const ShapeT fewer = simplify_hull(shape, n).shape;
+    CHECK((fewer.centroid_of_input() - middle).norm() < 0.5);
+    for (Eigen::Index i = 0; i < fewer.vertices().rows(); ++i) {
+      const V x = fewer.vertices().row(i).transpose() + fewer.centroid_of_input();
+      T nearest = 1;
+      for (const V& point : points) nearest = std::min(nearest, (point - x).norm());
+      CHECK(nearest < 32 * std::numeric_limits<T>::epsilon());
+    }
+  }
+  // Halves of a body stay side by side.
+  const auto half = [&](T sign) {
+    std::vector<V> some;
+    for (const V& point : points) {
+      V x = point - middle;
+      x[0] = sign * std::abs(x[0]) + sign;
+      some.push_back(x);
+    }
+    return simplify_hull(ShapeT{std::span<const V>(some)}, 12).shape;
+  };
+  const Compound<ShapeT> grain({half(1), half(-1)});
+  CHECK(std::abs(grain.parts()[0].pose.position[0] - grain.parts()[1].pose.position[0]) > 2);
 }
 
 TEST_CASE("many points on few faces") {

@@ -27,17 +27,20 @@ namespace moreau {
 /// A convex shape with fewer vertices.
 template <class ShapeT>
 struct SimplifiedHull {
-  ShapeT shape;  ///< in the frame of the given shape's input: centroid_of_input() has moved
+  /// Its centroid_of_input() is in the frame of the given shape's input, whatever n.
+  ShapeT shape;
   /// Volume that was lost, divided by the volume of the given shape [-], >= 0.
   typename ShapeT::Space::Scalar volume_error = 0;
 };
 
 namespace detail {
 
+/// @param left vertices in the body frame of the given shape [m]
 template <class ShapeT>
 SimplifiedHull<ShapeT> simplified(const ShapeT& given,
                                   const std::vector<typename ShapeT::Vector>& left) {
   ShapeT shape{std::span<const typename ShapeT::Vector>(left)};
+  InputFrame::move_by(shape, given.centroid_of_input());
   const auto error = 1 - shape.volume() / given.volume();
   return {std::move(shape), std::max(error, typename ShapeT::Scalar(0))};
 }
@@ -59,7 +62,7 @@ std::vector<Eigen::Matrix<double, ShapeT::Space::dim, 1>> unit_vertices(const Sh
 /// weighed when a sixteenth of them has changed, and before it is removed: until then another vertex
 /// may be removed first.)
 /// @param n at least 4; a shape with no more vertices is returned as it is
-/// @returns the shape, in its own frame, and the volume lost
+/// @returns the shape and the volume lost
 /// @throws std::invalid_argument if n < 4
 template <std::floating_point T>
 SimplifiedHull<Polyhedron<T>> simplify_hull(const Polyhedron<T>& shape, std::size_t n) {

@@ -10,6 +10,15 @@
 #include "moreau/shape/moments.hpp"
 
 namespace moreau {
+namespace detail {
+
+/// Names the frame in which the points of a polytope were given.
+struct InputFrame {
+  /// Adds a vector to centroid_of_input() [m].
+  static void move_by(auto& polytope, const auto& vector) { polytope.centroid_of_input_ += vector; }
+};
+
+}  // namespace detail
 
 /// The common base of Polygon and Polyhedron: vertices and planes of the faces as matrices, exact
 /// moments, and the functions of a shape. The body frame has the axes of the input coordinates and
@@ -69,6 +78,7 @@ class PolytopeBase {
   Aabb<S> bounding_box(const Pose<S>& pose) const { return box_around<S>(vertices_, pose); }
 
  protected:
+  friend struct detail::InputFrame;
   PolytopeBase() = default;
   /// References to all members, for serialization.
   auto members() {
