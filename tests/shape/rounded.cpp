@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "detect/shapes.hpp"
@@ -95,6 +96,32 @@ TEST_CASE("the frame is at the centre of mass of the sum") {
   const Vector top = rounded.support(Vector(0, 1));
   CHECK(top.y() == doctest::Approx(2));
   CHECK(top.x() == doctest::Approx(rounded.core_position().x() + core.vertices()(2, 0)));
+}
+
+/// Inertia of a rounded simplex over its mass and the square of its size.
+template <class ShapeT>
+Eigen::MatrixXd shape_of_inertia(double size) {
+  using T = typename ShapeT::Space::Scalar;
+  using Vector = typename ShapeT::Vector;
+  std::vector<Vector> corners{Vector::Zero()};
+  for (int k = 0; k < ShapeT::Space::dim; ++k) {
+    Vector x = Vector::Constant(T(0.1 * size));
+    x[k] = T((1 - 0.2 * k) * size);
+    corners.push_back(x);
+  }
+  const ShapeT core{std::span<const Vector>(corners)};
+  const auto mass = Rounded<ShapeT>(core, T(0.1 * size)).mass_properties(T(1));
+  return mass.inertia.template cast<double>() / double(mass.mass) / (size * size);
+}
+
+TEST_CASE("in single precision the moments of every size are those of double precision") {
+  for (const double size : {1e-6, 1e-5, 1e-3, 1.0, 1e3, 1e5, 1e6}) {
+    CAPTURE(size);
+    const Eigen::MatrixXd solid = shape_of_inertia<Polyhedron<>>(1),
+                          flat = shape_of_inertia<Polygon<>>(1);
+    CHECK((shape_of_inertia<Polyhedron<float>>(size) - solid).norm() < 1e-5 * solid.norm());
+    CHECK((shape_of_inertia<Polygon<float>>(size) - flat).norm() < 1e-5 * flat.norm());
+  }
 }
 
 TEST_CASE("bad arguments are named") {

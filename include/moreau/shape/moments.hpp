@@ -58,7 +58,9 @@ struct Moments {
 
   /// The moments of the same body about its own centre, first / volume. The volume must not be 0.
   Moments centered() const {
-    return {volume, Vector::Zero(), second - first * first.transpose() / volume};
+    // first * first^T would leave the range of single precision at 1e-5 m and at 1e5 m.
+    const Vector center = first / volume;
+    return {volume, Vector::Zero(), second - center * first.transpose()};
   }
 
   /// Whether the scalar type can represent the moments. They overflow or underflow if the shape is

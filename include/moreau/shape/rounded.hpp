@@ -35,7 +35,7 @@ class Rounded {
   /// @param core   in its own frame; it is copied
   /// @param radius radius of the ball [m], > 0
   /// @throws std::invalid_argument unless the radius is finite and > 0, and also the
-  ///                               volume if it is known
+  ///                               volume and the inertia if they are known
   Rounded(const Core& core, Scalar radius) : core_(core), radius_(radius) {
     require_positive(radius, "Rounded", "radius");
     if constexpr (HasRoundedMoments<Core>) {
@@ -44,6 +44,8 @@ class Rounded {
               about_core.volume, "m^D must be positive and finite");
       core_position_ = -about_core.first / about_core.volume;
       moments_ = about_core.centered();
+      require(moments_.are_regular(), "Rounded", "inertia", moments_.inertia(),
+              "m^(D+2) must be positive and finite");
     }
   }
 

@@ -118,8 +118,11 @@ class Assembly {
     require_shape(shape, function);
     require_positive(density, function, "density");
     const MassProperties<S> mass = shapes_[shape.index()].mass_properties(density);
-    require(std::isfinite(mass.mass) && mass.mass > 0 && all_finite(mass.inertia) &&
-                all_finite(inverse_root<S>(mass.inertia)),
+    // A number below the least normal one has lost digits.
+    bool is_normal = std::isnormal(mass.mass) && mass.mass > 0;
+    for (int k = 0; k < S::angular_dim; ++k)
+      is_normal = is_normal && std::isnormal(mass.inertia(k, k));
+    require(is_normal && all_finite(mass.inertia) && all_finite(inverse_root<S>(mass.inertia)),
             function, "mass", mass.mass, "must be finite and > 0, as must be the inertia");
     require(mass.center.norm() <= Scalar(1e-3) * grain_size, function, "center of mass",
             mass.center, "must be the origin of the shape's frame");
@@ -247,10 +250,10 @@ class Assembly {
     if (cell.is_open()) return;
     bool is_wall = std::find(walls_.begin(), walls_.end(), body) != walls_.end();
     for (const CylinderBody<S>& cylinder : cylinders_) is_wall = is_wall || cylinder.body == body;
+    if (!is_wall) return;
     const auto turns = [&](const typename S::Vector& axis) {
       return S::spin(spin, axis).norm() > Scalar(1e-5) * spin.norm();
     };
-    if (!is_wall) return;
     for (int axis = 0; axis < S::dim; ++axis)
       require(!cell.is_periodic(axis) || !turns(S::Vector::Unit(axis)), function, "spin", spin,
               "must be about the only periodic axis, or zero");
