@@ -82,12 +82,15 @@ class VtkWriter {
         append_surface(shape, pose);
       const typename S::Twist twist = velocity_of(k);
       const Vector v = linear<S>(twist);
+      const auto size = static_cast<float>(2 * reach(shape));
+      const auto speed = static_cast<float>(v.norm()),
+                 spin = static_cast<float>(angular<S>(twist).norm());
       for (std::size_t cell = before; cell < data_.cell_count(); ++cell) {
         numbers_.push_back(static_cast<std::int32_t>(k));
-        lengths_.push_back(static_cast<float>(2 * reach(shape)));
+        lengths_.push_back(size);
         append_vector(v, vectors_);
-        first_.push_back(static_cast<float>(v.norm()));
-        second_.push_back(static_cast<float>(angular<S>(twist).norm()));
+        first_.push_back(speed);
+        second_.push_back(spin);
       }
     }
     const auto place = as_points ? VtkPolyData::On::points : VtkPolyData::On::cells;
