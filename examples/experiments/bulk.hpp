@@ -68,7 +68,8 @@ struct Numerics {
 
 /// An empty world of balls.
 /// @param size smallest diameter [m]
-inline World world_of(double size, const Numerics& numerics, int threads) {
+inline World world_of(double size, const Numerics& numerics, int threads,
+                      const moreau::Materials<Law>& laws = materials()) {
   moreau::ColouredOptions options;
   options.tolerance = numerics.tolerance;
   options.max_sweeps = numerics.max_sweeps;
@@ -76,7 +77,7 @@ inline World world_of(double size, const Numerics& numerics, int threads) {
   moreau::Tolerances tolerances;
   tolerances.margin = numerics.margin;
   tolerances.skin = 0.1;
-  World world(size, materials(), moreau::ColouredGaussSeidel(options), tolerances);
+  World world(size, laws, moreau::ColouredGaussSeidel(options), tolerances);
   world.set_gravity({0, 0, -gravity});
   if (threads > 1) world.set_team(moreau::ThreadTeam(threads));
   return world;
@@ -114,11 +115,10 @@ inline Sums advance(Run& run, auto& world, const Numerics& numerics, double unti
   else
     build(world);
   Sums s{sums[0], sums[1], sums[2], sums[3], sums[4]};
-  double stored = cpu_seconds();
   const auto store = [&] {
     sums = {s.steps, s.unsolved, s.sweeps, s.overlap, s.stepping};
     moreau::write_snapshot(run.snapshot(), world, log, sums);
-    stored = cpu_seconds();
+    run.note_stored();
   };
   using Seen = decltype(look(world));
   constexpr std::size_t width = [] {
@@ -149,7 +149,8 @@ inline Sums advance(Run& run, auto& world, const Numerics& numerics, double unti
                    std::to_string(s.sweeps / s.steps) + " sweeps");
       throw Paused();
     }
-    if (cpu_seconds() - stored > 60) store();
+    if (run.must_store()) store();
+    run.progress(double(k) / double(last));
   }
   note();
   return s;

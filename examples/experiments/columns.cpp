@@ -82,7 +82,8 @@ Shape grain_of(double radius, std::mt19937_64& random) {
 
 /// A settled column of the radius r, as high as r times the aspect.
 template <class Shape, class Law, class S = moreau::SpaceOf<Shape>>
-std::vector<Grain<Shape>> column(double r, double aspect, double friction, std::uint64_t seed) {
+std::vector<Grain<Shape>> column(Run& run, double r, double aspect, double friction,
+                                 std::uint64_t seed) {
   constexpr int up = S::dim - 1;
   using Vector = typename S::Vector;
   World<Shape, Law> world = empty_world<Shape, Law>(friction);
@@ -113,7 +114,11 @@ std::vector<Grain<Shape>> column(double r, double aspect, double friction, std::
     for (const double side : {-1.0, 1.0})
       world.add_wall(Vector(-side * Vector::UnitX()), Vector(side * r * Vector::UnitX()),
                      wall_material);
-  for (int k = 0; k < int(std::lround(0.4 / step<Shape>)); ++k) world.step(step<Shape>);
+  const int settling = int(std::lround(0.4 / step<Shape>));
+  for (int k = 0; k < settling; ++k) {
+    world.step(step<Shape>);
+    run.progress(0.4 * k / settling);
+  }
   std::vector<Grain<Shape>> grains;
   for (std::size_t k = 0; k < world.grain_count(); ++k) {
     const Shape& shape = world.shape_of_grain(k);
@@ -150,9 +155,9 @@ double radius_of(const std::vector<Grain<Shape>>& grains) {
 
 /// Aspect ratio, run-out over r, number of grains.
 template <class Shape, class Law, class S = moreau::SpaceOf<Shape>>
-Numbers collapse(double r, double aspect, double friction, std::uint64_t seed) {
+Numbers collapse(Run& run, double r, double aspect, double friction, std::uint64_t seed) {
   constexpr int up = S::dim - 1;
-  const std::vector<Grain<Shape>> start = column<Shape, Law>(r, aspect, friction, seed);
+  const std::vector<Grain<Shape>> start = column<Shape, Law>(run, r, aspect, friction, seed);
   World<Shape, Law> world = empty_world<Shape, Law>(friction);
   for (const Grain<Shape>& grain : start)
     world.add_grain(world.add_shape(grain.shape), grain.pose, 2500);
@@ -162,7 +167,10 @@ Numbers collapse(double r, double aspect, double friction, std::uint64_t seed) {
     height += 2 * grain.pose.position[up] / double(start.size());
   const double duration = 10 * std::sqrt(height / gravity);
   double unsolved = 0;
-  while (world.time() < duration) unsolved += !world.step(step<Shape>).solve.converged;
+  while (world.time() < duration) {
+    unsolved += !world.step(step<Shape>).solve.converged;
+    run.progress(0.4 + 0.6 * world.time() / duration);
+  }
   std::vector<Grain<Shape>> deposit = start;
   for (std::size_t k = 0; k < world.grain_count(); ++k)
     deposit[k].pose = world.pose(world.grain(k));
@@ -184,8 +192,8 @@ void run(Session& session, const std::string& name, double across, const Numbers
                                   std::to_string(friction) + " across " + std::to_string(across) +
                                   " seed " + std::to_string(seed);
           if (!session.wants(key)) continue;
-          all[{friction, aspect}].push_back(session.once(key, [&](Run&) {
-            return collapse<Shape, Law>(r, aspect, friction, std::uint64_t(seed));
+          all[{friction, aspect}].push_back(session.once(key, [&](Run& piece) {
+            return collapse<Shape, Law>(piece, r, aspect, friction, std::uint64_t(seed));
           }));
         }
   } catch (const Paused&) {

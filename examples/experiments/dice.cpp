@@ -12,12 +12,14 @@
 //   walled    poured, but between four side walls in place of the periodic axes, with the same friction;
 //   slow      sediment, but held at 0.03 m/s, which lifts a die by a two-hundredth of its size;
 //   rounded   sediment of dice whose edges are rounded with a tenth of their size, at equal volume;
-//   dense     the floor shakes the poured ones along the vertical, with 25 Hz and an acceleration of 4 g at first, which
-//             falls linearly to 0.
+//   dense     the floor shakes the poured ones along the vertical for 4 s, with 25 Hz and an acceleration of 4 g at first,
+//             which falls linearly to 0;
+//   long      the same for 16 s;
+//   smooth    poured and shaken for 4 s like dense, the edges rounded like those of rounded.
 // The loosest packing was published for dice that were fluidized, the densest one for dice that were vibrated.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
-// between dice is not published: it is varied. Damped, walled, slow and rounded change one thing each: controls, with the
-// first friction.
+// between dice is not in the abstract: it is varied. Damped, walled, slow, rounded, long and smooth change one thing each: controls.
+// The first four have the first friction only. Friction 0 is a limit: poured and shaken dice only.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +27,6 @@
 #include <map>
 #include <moreau/moreau.hpp>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -127,7 +128,7 @@ constexpr double rest = 0.3, terminal = 0.1,
                  slow_terminal = 0.03;  // [s], of the sediment [m/s]
 
 /// How the dice arrive.
-enum class Arrival { poured, sediment, damped, walled, slow, rounded };
+enum class Arrival { poured, sediment, damped, walled, slow, rounded, poured_rounded };
 
 struct Sample {
   int faces;
@@ -185,10 +186,11 @@ Numbers advance_dice(Run& run, World<Shape> world, const Sample& sample, double 
     resist(world, drag);
     sums[1] += !world.step(h).solve.converged;
     ++sums[0];
-    if (sums[0] < last && run.must_stop()) {
-      moreau::write_snapshot(run.snapshot(), world, sums);
-      throw Paused();
-    }
+    run.progress(sums[0] / last);
+    if (sums[0] == last || !(run.must_stop() || run.must_store())) continue;
+    moreau::write_snapshot(run.snapshot(), world, sums);
+    run.note_stored();
+    if (run.must_stop()) throw Paused();
   }
   Numbers values{fraction(world, die(sample.faces), sample.length()), sums[1] / sums[0]};
   for (const moreau::BodyId grain : world.grains()) {
@@ -217,7 +219,7 @@ Numbers loose(Run& run, const Sample& sample, Arrival arrival, const Shape& shap
       world.add_wall(-Vector::Unit(axis), sample.length() * Vector::Unit(axis));
     }
   };
-  const bool slowly = arrival != Arrival::poured && !walled;
+  const bool slowly = arrival != Arrival::poured && arrival != Arrival::poured_rounded && !walled;
   const double velocity = arrival == Arrival::slow ? slow_terminal : terminal;
   // The time in which the highest die falls to the floor, and rest.
   const double fall = slowly ? top / velocity : std::sqrt(2 * top / gravity);
@@ -230,9 +232,10 @@ Numbers loose(Run& run, const Sample& sample, Arrival arrival, const Shape& shap
 }
 
 /// @param start what loose() has returned
-Numbers dense(Run& run, const Sample& sample, const Numbers& start) {
+template <class Shape>
+Numbers dense(Run& run, const Sample& sample, const Numbers& start, const Shape& shape) {
   const auto build = [&](World<Shape>& world) {
-    const auto id = world.add_shape(die(sample.faces));
+    const auto id = world.add_shape(shape);
     for (std::size_t k = 2; k + 6 < start.size(); k += 7) {
       moreau::Pose<S> pose;
       pose.position = Vector(start[k], start[k + 1], start[k + 2]);
@@ -261,22 +264,30 @@ struct Die {
 
 /// What is done with dice.
 struct Kind {
-  const char* key;                 ///< in the name of the run
-  const char* figure;              ///< in the table
-  std::optional<Arrival> arrival;  ///< none: poured, then shaken
-  double h;                        ///< step [s]
-  bool compared;                   ///< the published value is of this procedure
-  bool control;                    ///< with the first friction only
+  const char* key;     ///< in the name of the run
+  const char* figure;  ///< in the table
+  Arrival arrival;
+  double shaking;         ///< after the arrival [s]
+  double h;               ///< step [s]
+  bool compared;          ///< the published value is of this procedure
+  std::size_t frictions;  ///< how many of the list
+
+  bool is_rounded() const {
+    return arrival == Arrival::rounded || arrival == Arrival::poured_rounded;
+  }
 };
 const std::vector<Kind>& all_kinds() {  // the short runs first
   static const std::vector<Kind> kinds{
-      {"poured", "poured", Arrival::poured, step, false, false},
-      {"sediment", "loosest, as sediment", Arrival::sediment, slow_step, true, false},
-      {"damped", "sediment, spin resisted", Arrival::damped, slow_step, false, true},
-      {"walled", "poured between walls", Arrival::walled, step, false, true},
-      {"rounded", "sediment, edges rounded", Arrival::rounded, slow_step, false, true},
-      {"slow", "sediment at 0.03 m/s", Arrival::slow, slow_step, false, true},
-      {"dense", "densest", std::nullopt, step, true, false}};
+      {"poured", "poured", Arrival::poured, 0, step, false, 3},
+      {"poured rounded", "poured, edges rounded", Arrival::poured_rounded, 0, step, false, 3},
+      {"sediment", "loosest, as sediment", Arrival::sediment, 0, slow_step, true, 2},
+      {"damped", "sediment, spin resisted", Arrival::damped, 0, slow_step, false, 1},
+      {"walled", "poured between walls", Arrival::walled, 0, step, false, 1},
+      {"rounded", "sediment, edges rounded", Arrival::rounded, 0, slow_step, false, 1},
+      {"slow", "sediment at 0.03 m/s", Arrival::slow, 0, slow_step, false, 1},
+      {"dense", "densest", Arrival::poured, 4, step, true, 3},
+      {"smooth", "densest, edges rounded", Arrival::poured_rounded, 4, step, false, 3},
+      {"long", "densest, shaken for 16 s", Arrival::poured, 16, step, false, 3}};
   return kinds;
 }
 
@@ -307,7 +318,7 @@ void report(Session& session, const std::vector<Die>& kinds, const Numbers& fric
       };
       for (const Kind& kind : all_kinds()) {
         if (!f.samples.contains(kind.key)) continue;
-        const double published = kind.arrival ? one.loose : one.dense;
+        const double published = kind.shaking > 0 ? one.dense : one.loose;
         row.figure = std::string(one.name) + ", " + kind.figure + ": solid fraction";
         row.published = std::to_string(published).substr(0, 4) + " ± 0.01";
         row.measured = mean(kind.key).value;
@@ -322,12 +333,14 @@ void report(Session& session, const std::vector<Die>& kinds, const Numbers& fric
       }
       rows.push_back({double(one.faces), friction, mean("sediment").value, one.loose,
                       mean("dense").value, one.dense, mean("poured").value, mean("damped").value,
-                      mean("walled").value, mean("slow").value, mean("rounded").value});
+                      mean("walled").value, mean("slow").value, mean("rounded").value,
+                      mean("poured rounded").value, mean("smooth").value, mean("long").value});
     }
-  session.curve("dice",
-                {"faces", "friction", "sediment", "published loose", "dense", "published dense",
-                 "poured", "damped", "walled", "slow", "rounded"},
-                rows);
+  session.curve(
+      "dice",
+      {"faces", "friction", "sediment", "published loose", "dense", "published dense", "poured",
+       "damped", "walled", "slow", "rounded", "poured rounded", "smooth", "long"},
+      rows);
 }
 
 }  // namespace dice_parts
@@ -336,39 +349,41 @@ void dice(Session& session) {
   using namespace dice_parts;
   const bool quick = session.quick();
   const std::size_t count = quick ? 150 : 400;
-  const double across = quick ? 5 : 6, shaking = quick ? 0.2 : 4;
+  const double across = quick ? 5 : 6;
   const std::vector<Die> kinds{{6, "cubes", 0.54, 0.67},
                                {4, "tetrahedra", 0.51, 0.64},
                                {8, "octahedra", 0.52, 0.64},
                                {12, "dodecahedra", 0.51, 0.63},
                                {20, "icosahedra", 0.50, 0.59}};
-  const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2};
+  const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2, 0};
   All all;
   bool paused = false;
   const auto run = [&](const Kind& kind, std::uint64_t seed) {
-    for (const double friction : frictions)
+    for (std::size_t f = 0; f < std::min(kind.frictions, frictions.size()); ++f)
       for (const Die& one : kinds) {
         if (quick && one.faces != 6) continue;
-        if (kind.control && friction != frictions[0]) continue;
-        const Sample sample{one.faces, count, across, friction, shaking, seed};
+        const double friction = frictions[f];
+        const Sample sample{one.faces, count, across, friction, quick ? 0.2 : kind.shaking, seed};
         const std::string name = std::string(one.name) + " friction " + std::to_string(friction) +
                                  " count " + std::to_string(count) + " seed " +
                                  std::to_string(seed) + ' ';
         if (!session.wants(name + kind.key)) continue;
-        const auto arrive = [&](const char* key, Arrival arrival) {
-          return session.once(name + key, [&](Run& piece) {
-            const Shape sharp = die(sample.faces);
-            return arrival == Arrival::rounded ? loose(piece, sample, arrival, rounded(sharp))
-                                               : loose(piece, sample, arrival, sharp);
-          });
+        const auto with_shape = [&](const auto& call) {
+          const Shape sharp = die(one.faces);
+          return kind.is_rounded() ? call(rounded(sharp)) : call(sharp);
         };
-        Result result;
-        if (kind.arrival) {
-          result = arrive(kind.key, *kind.arrival);
-        } else {
-          const Result start = arrive("poured", Arrival::poured);
-          result = session.once(name + kind.key,
-                                [&](Run& piece) { return dense(piece, sample, start.values); });
+        const std::string arrival =
+            kind.shaking > 0 ? kind.is_rounded() ? "poured rounded" : "poured" : kind.key;
+        Result result = session.once(name + arrival, [&](Run& piece) {
+          return with_shape(
+              [&](const auto& shape) { return loose(piece, sample, kind.arrival, shape); });
+        });
+        if (kind.shaking > 0) {
+          const Result start = result;
+          result = session.once(name + kind.key, [&](Run& piece) {
+            return with_shape(
+                [&](const auto& shape) { return dense(piece, sample, start.values, shape); });
+          });
         }
         Fractions& fractions = all[{friction, one.faces}];
         fractions.samples[kind.key].push_back(result.values[0]);
@@ -377,7 +392,7 @@ void dice(Session& session) {
   };
   try {
     for (const Kind& kind : all_kinds()) {
-      if (quick && kind.h == slow_step) continue;
+      if (quick && (kind.h == slow_step || kind.is_rounded() || kind.shaking > 4)) continue;
       for (std::uint64_t seed = 1; seed <= (quick ? 1u : 3u); ++seed) run(kind, seed);
     }
   } catch (const Paused&) {

@@ -140,10 +140,11 @@ Numbers run_heap(Run& run, const Case& c) {
     ++sums[0];
     if (c.small && gates.empty()) sink.apply(world);
     if (world.time() >= 1 + 0.25 * double(angles.size())) angles.push_back(angle(world, c.scale));
-    if (run.must_stop()) {
-      moreau::write_snapshot(run.snapshot(), world, gates, angles, sums);
-      throw Paused();
-    }
+    run.progress(world.time() / c.until);
+    if (!run.must_stop() && !run.must_store()) continue;
+    moreau::write_snapshot(run.snapshot(), world, gates, angles, sums);
+    run.note_stored();
+    if (run.must_stop()) throw Paused();
   }
   double fastest = 0;
   for (const moreau::BodyId grain : world.grains())

@@ -4,6 +4,8 @@
 // shallow ones by random deposition and settling, deeper ones of copies of a shallow one that settle together.
 #include <array>
 #include <cstdio>
+#include <limits>
+#include <numbers>
 
 #include "bulk.hpp"
 #include "impact_bed.hpp"
@@ -26,12 +28,16 @@ struct Case {
   std::vector<std::uint64_t> seeds;
   const char* file;  // of the published curves; empty: there is none
   Numerics numerics;
+  Preparation preparation = {};
 
-  std::string name() const { return std::to_string(balls) + " balls"; }
+  std::string name() const {
+    return std::to_string(balls) + " balls" + (preparation.is_standard() ? "" : ", loose bed");
+  }
   /// Name of the file of the curve.
   std::string curve() const {
     return "impact_" + std::to_string(balls / 1000) + "k" +
-           (balls == shallow && numerics.step > 5e-5 ? "_twice_the_step" : "");
+           (balls == shallow && numerics.step > 5e-5 ? "_twice_the_step" : "") +
+           (preparation.is_standard() ? "" : "_loose");
   }
 };
 
@@ -41,9 +47,10 @@ struct Outcome {
 };
 Outcome one_impact(Session& session, const Case& c, std::uint64_t seed, double until) {
   const int threads = session.options().threads;
-  const std::string name = c.name() + ", bed " + std::to_string(seed);
-  const Numbers bed = c.balls > shallow ? stacked_bed(session, c.balls / shallow, shallow, seed)
-                                        : settled_bed(session, {}, c.balls, seed);
+  const std::string name = c.name() + ", bed " + std::to_string(seed) + c.preparation.text();
+  const Numbers bed = c.balls > shallow
+                          ? stacked_bed(session, c.balls / shallow, shallow, seed, c.preparation)
+                          : settled_bed(session, {}, c.balls, seed, c.preparation);
   Session::say("  " + name + ": settled to a root mean square velocity of " +
                std::to_string(1000 * bed[bed.size() - 2]) + " mm/s");
   Numbers z;
@@ -70,6 +77,33 @@ Outcome one_impact(Session& session, const Case& c, std::uint64_t seed, double u
           v[n + 3]};
 }
 
+/// Height of the bed as the curve shows it [m]: how far the lowest point of the ball is above the floor when the ball is
+/// 0.1 mm above free fall.
+/// @param z every millisecond
+double height_of_bed(const Numbers& z) {
+  constexpr double sought = 1e-4;
+  double before = 0;
+  for (std::size_t k = 1; k < z.size(); ++k) {
+    const double t = 1e-3 * double(k);
+    const double lag = z[k] - (start_height - speed * t - gravity * t * t / 2);
+    if (lag >= sought) {
+      const double share = (sought - before) / (lag - before);
+      return z[k - 1] + share * (z[k] - z[k - 1]) - impactor / 2 - floor_height;
+    }
+    before = lag;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The published curve of a code. LIGGGHTS' is 0.05 ms ahead, which is taken back.
+Numbers curve_of(const std::vector<Numbers>& published, std::size_t code) {
+  Numbers z;
+  for (const Numbers& line : published) z.push_back(line[code]);
+  if (code == 1)
+    for (std::size_t k = 0; k + 1 < z.size(); ++k) z[k] -= 0.05 * (z[k + 1] - z[k]);
+  return z;
+}
+
 void compare(Session& session, const Case& c, const std::vector<Outcome>& outcomes) {
   const bool compared = *c.file != 0;
   const std::vector<Numbers> published = compared ? read_data(c.file) : std::vector<Numbers>();
@@ -94,7 +128,8 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   std::vector<std::string> heads{"t [ms]", "mean [m]"};
   for (std::size_t k = 0; k < outcomes.size(); ++k) heads.push_back("bed " + std::to_string(k + 1));
   session.curve(c.curve(), heads, rows);
-  const std::string bed = c.name() + (c.curve().ends_with("step") ? ", twice the step: " : ": ");
+  const std::string bed =
+      c.name() + (c.curve().find("step") != std::string::npos ? ", twice the step: " : ": ");
   Numbers per_step, unsolved;
   for (const Outcome& one : outcomes) per_step.push_back(one.ms), unsolved.push_back(one.unsolved);
   row.published = "–";
@@ -104,14 +139,30 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   row.figure = bed + "steps not solved, share";
   row.measured = mean_of(unsolved).value;
   session.row(row);
+  // Balls over the volume below the surface.
+  const auto solid = [&](const Numbers& z) {
+    constexpr double r = diameter / 2, ball = 4. / 3 * std::numbers::pi * r * r * r;
+    return double(c.balls) * ball / (Box{}.length * Box{}.width * height_of_bed(z));
+  };
+  Numbers fractions;
+  for (const Outcome& one : outcomes) fractions.push_back(solid(one.z));
+  const auto both = [&](const char* form, double liggghts, double musen) -> std::string {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), form, liggghts, musen);
+    return compared ? text.data() : "–";
+  };
+  row.figure = bed + "solid fraction of the bed, by the height at which the ball meets it";
+  if (compared)
+    row.published = both("%.3f (LIGGGHTS), %.3f (MUSEN)", solid(curve_of(published, 1)),
+                         solid(curve_of(published, 2)));
+  row.measured = mean_of(fractions).value;
+  row.error = mean_of(fractions).error;
+  session.row(row);
+  row.error = std::numeric_limits<double>::quiet_NaN();
   for (const std::size_t code : {std::size_t(1), std::size_t(2)}) {
     if (!compared) break;
-    Numbers theirs, largest;
-    for (const Numbers& line : published) theirs.push_back(line[code]);
-    // LIGGGHTS' curve is 0.05 ms ahead.
-    if (code == 1)
-      for (std::size_t k = 0; k + 1 < theirs.size(); ++k)
-        theirs[k] -= 0.05 * (theirs[k + 1] - theirs[k]);
+    const Numbers theirs = curve_of(published, code);
+    Numbers largest;
     for (const Outcome& one : outcomes) largest.push_back(1000 * difference(one.z, theirs).largest);
     row.figure = bed + "largest difference of a bed's curve to " +
                  (code == 1 ? "LIGGGHTS" : "MUSEN") + " [mm]";
@@ -139,19 +190,15 @@ void compare(Session& session, const Case& c, const std::vector<Outcome>& outcom
   for (const Numbers& line : published)
     for (const std::size_t code : {std::size_t(0), std::size_t(1)})
       low[code] = std::min(low[code], 1000 * line[code + 1]);
-  const auto both = [&](double liggghts, double musen) -> std::string {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.1f (LIGGGHTS), %.1f (MUSEN)", liggghts, musen);
-    return compared ? text.data() : "–";
-  };
   row.figure = bed + "lowest height of the ball [mm]";
-  row.published = both(low[0], low[1]);
+  constexpr const char* form = "%.1f (LIGGGHTS), %.1f (MUSEN)";
+  row.published = both(form, low[0], low[1]);
   row.measured = mean_of(lowest).value;
   row.error = mean_of(lowest).error;
   row.verdict = "";
   session.row(row);
   row.figure = bed + "height at the end [mm]";
-  row.published = compared ? both(1000 * published.back()[1], 1000 * published.back()[2]) : "–";
+  if (compared) row.published = both(form, 1000 * published.back()[1], 1000 * published.back()[2]);
   row.measured = mean_of(end).value;
   row.error = mean_of(end).error;
   session.row(row);
@@ -163,9 +210,14 @@ void impact(Session& session) {
   using namespace impact_parts;
   // The deep bed has twice the step; the control of it is the first one of the shallow beds.
   const Numerics numerics{5e-5, 1e-3, 0.2}, twice{1e-4, 1e-3, 0.2};
+  // The published beds are looser than those of the standard preparation: a control that differs in the bed only.
+  const Preparation loose{1, 1.3};
   std::vector<Case> cases{{shallow, {1, 2, 3}, "impact_25k.csv", numerics},
                           {shallow, {1}, "impact_25k.csv", twice},
                           {100000, {1}, "impact_100k.csv", twice},
+                          {100000, {1}, "impact_100k.csv", twice, loose},
+                          {shallow, {1}, "impact_25k.csv", twice, loose},
+                          {50000, {1}, "impact_50k.csv", twice, loose},
                           {50000, {1, 2, 3}, "impact_50k.csv", numerics}};
   if (session.quick()) {
     one_impact(session, {1000, {1}, "", numerics}, 1, 0.01);

@@ -37,25 +37,48 @@ inline void add_box(auto& world, const Box& box) {
   world.add_wall(Vector::UnitZ(), floor_height * Vector::UnitZ(), steel);
 }
 
-inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64_t seed) {
+/// @param stretch factor of the heights above the floor
+inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64_t seed,
+                    double stretch) {
   std::mt19937_64 random(seed);
   const std::vector<double> radii(count, diameter / 2);
   const auto shape = world.add_shape(moreau::Ball<double>(diameter / 2));
   for (moreau::Pose<S> pose :
        moreau::random_deposition<S>(radii, std::array<double, 2>{box.length, box.width}, random)) {
+    pose.position[2] = diameter / 2 + stretch * (pose.position[2] - diameter / 2);
     pose.position += Vector(-box.length / 2, -box.width / 2, floor_height);
     world.add_grain(shape, pose, density_m1, m1);
   }
   add_box(world, box);
 }
 
+/// How a bed is prepared. What the publication has is not known to us: the standard is the published materials.
+struct Preparation {
+  double friction = 0;  ///< of all pairs while the bed settles; 0: the published ones
+  double stretch = 1;   ///< factor of the heights above the floor before the bed settles
+
+  bool is_standard() const { return friction == 0 && stretch == 1; }
+  /// For names of runs.
+  std::string text() const {
+    return is_standard() ? ""
+                         : ", settled with friction " + std::to_string(friction) + " from " +
+                               std::to_string(stretch) + " times the height";
+  }
+  moreau::Materials<Law> laws() const {
+    return materials_of<Law>([&](moreau::MaterialId, moreau::MaterialId, double mu, double e) {
+      return Law(friction > 0 ? friction : mu, e);
+    });
+  }
+};
+
 /// A bed that has settled, which the experiments share: positions, then the root of the mean square of the velocities
 /// [m/s] and the milliseconds per step.
 /// @param add (world): adds balls and box
-inline Numbers settle(Session& session, const std::string& key, double duration, const auto& add) {
+inline Numbers settle(Session& session, const std::string& key, double duration,
+                      const Preparation& preparation, const auto& add) {
   const Result result = session.once(key, [&](Run& run) {
     const Numerics numerics{2e-4, 1e-2, 0.2};
-    World world = world_of(diameter, numerics, session.options().threads);
+    World world = world_of(diameter, numerics, session.options().threads, preparation.laws());
     Numbers log;
     const Sums sums = advance(run, world, numerics, duration, duration, log, add, mean_speed);
     Numbers state;
@@ -69,23 +92,26 @@ inline Numbers settle(Session& session, const std::string& key, double duration,
 }
 
 /// The bed of settle(), made by random deposition.
-inline Numbers settled_bed(Session& session, const Box& box, std::size_t count,
-                           std::uint64_t seed) {
+inline Numbers settled_bed(Session& session, const Box& box, std::size_t count, std::uint64_t seed,
+                           const Preparation& preparation = {}) {
   const std::string key = "/bed of " + std::to_string(count) + " balls, seed " +
-                          std::to_string(seed) + ", width " + std::to_string(box.width);
-  return settle(session, key, session.quick() ? 0.01 : settling,
-                [&](World& empty) { add_bed(empty, box, count, seed); });
+                          std::to_string(seed) + ", width " + std::to_string(box.width) +
+                          preparation.text();
+  const double duration = preparation.is_standard() ? settling : 0.15;
+  return settle(session, key, session.quick() ? 0.01 : duration, preparation,
+                [&](World& empty) { add_bed(empty, box, count, seed, preparation.stretch); });
 }
 
 /// The bed of settle(), made of up to four copies of a settled bed, one above the other: the bed itself, mirrored along
 /// the length, along the width, along both. It settles again for 0.06 s, because surface and bottom do not fit. A deep
 /// bed that is deposited at random falls by its height, which takes as many steps as the impact.
 inline Numbers stacked_bed(Session& session, std::size_t copies, std::size_t count,
-                           std::uint64_t seed) {
-  const Numbers bed = settled_bed(session, {}, count, seed);
+                           std::uint64_t seed, const Preparation& preparation = {}) {
+  const Numbers bed = settled_bed(session, {}, count, seed, preparation);
   const std::string key = "/bed of " + std::to_string(copies * count) + " balls, " +
-                          std::to_string(copies) + " copies, seed " + std::to_string(seed);
-  return settle(session, key, 0.06, [&](World& empty) {
+                          std::to_string(copies) + " copies, seed " + std::to_string(seed) +
+                          preparation.text();
+  return settle(session, key, 0.06, preparation, [&](World& empty) {
     double top = floor_height;
     for (std::size_t k = 0; k + 3 < bed.size(); k += 3) top = std::max(top, bed[k + 2]);
     const double height = top + diameter / 2 - floor_height;

@@ -2,6 +2,7 @@
 // Runs experiments that others published and writes one table of their figures and those of the library.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -69,9 +70,14 @@ int run(const Options& options) {
               options.output.c_str());
   Session session(options);
   bool paused = false;
+  double left = total;
   for (const Experiment& one : all_experiments()) {
     if (!is_wanted(one, options)) continue;
-    Session::say(one.name);
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), ": %.0f %% done, about %.2g core-hours left",
+                  100 * (1 - left / total), left / 3600);
+    Session::say(one.name + std::string(text.data()));
+    left -= options.quick ? one.quick_core_seconds : one.core_seconds;
     session.begin(one.name);
     try {
       one.run(session);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -48,8 +49,56 @@ struct Session::Store {
   std::string experiment;
 };
 
+namespace {
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+void interrupt(int signal) {
+  is_interrupted = 1;
+  std::signal(signal, SIG_DFL);  // the second one ends the program at once
+}
+
+fs::path clock_of(const fs::path& snapshot) {
+  return fs::path(snapshot).replace_extension("seconds");
+}
+
+}  // namespace
+
+Run::Run(std::string name, fs::path snapshot, Time deadline)
+    : name_(std::move(name)),
+      snapshot_(std::move(snapshot)),
+      deadline_(deadline),
+      printed_(Clock::now()),
+      start_(cpu_seconds()),
+      stored_(start_) {
+  if (std::ifstream before(clock_of(snapshot_)); before && is_started()) before >> earlier_;
+}
+
+bool Run::must_stop() const {
+  return is_interrupted != 0 || Clock::now() >= deadline_;
+}
+
+void Run::note_stored() {
+  stored_ = cpu_seconds();
+  moreau::write_atomically(clock_of(snapshot_), std::to_string(seconds()) + '\n');
+}
+
+void Run::progress(double share) {
+  if (first_share_ < 0) first_share_ = share;
+  const Clock::time_point now = Clock::now();
+  if (now - printed_ < std::chrono::seconds(20) || share <= first_share_) return;
+  printed_ = now;
+  const double left = (cpu_seconds() - start_) * (1 - share) / (share - first_share_);
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), ": %.1f %%, %.3f core-hours, about %.3f left",
+                100 * share, seconds() / 3600, left / 3600);
+  Session::say("  " + name_ + text.data());
+}
+
 Session::Session(const Options& options) : options_(options), store_(std::make_unique<Store>()) {
   fs::create_directories(options_.output);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
   deadline_ = options.hold < 1e9
                   ? Clock::now() + std::chrono::milliseconds(std::int64_t(1e3 * options.hold))
                   : Clock::time_point::max();
@@ -72,23 +121,15 @@ Result Session::once(const std::string& name, const std::function<Numbers(Run&)>
       (name.starts_with('/') ? name.substr(1) : store_->experiment + '/' + name);
   if (const auto found = store_->done.find(key); found != store_->done.end()) return found->second;
   const fs::path snapshot = options_.output / (file_name(key) + ".snapshot");
-  const fs::path clock = options_.output / (file_name(key) + ".seconds");
-  Run one(snapshot, deadline_);
+  Run one(key, snapshot, deadline_);
   if (one.must_stop()) throw Paused();
   Result result;
-  if (std::ifstream before(clock); before && one.is_started()) before >> result.seconds;
-  const double start = cpu_seconds();
-  try {
-    result.values = run(one);
-  } catch (const Paused&) {
-    std::ofstream(clock) << result.seconds + cpu_seconds() - start;
-    throw;
-  }
-  result.seconds += cpu_seconds() - start;
+  result.values = run(one);
+  result.seconds = one.seconds();
   nlohmann::json line{{"key", key}, {"values", result.values}, {"seconds", result.seconds}};
   std::ofstream(options_.output / "results.jsonl", std::ios::app) << line.dump() << '\n';
   fs::remove(snapshot);
-  fs::remove(clock);
+  fs::remove(clock_of(snapshot));
   store_->done[key] = result;
   say("  " + key + ": " + number(result.seconds) + " s");
   return result;

@@ -60,16 +60,32 @@ struct Options {
 /// A run that may be stopped and continued.
 class Run {
  public:
-  Run(std::filesystem::path snapshot, std::chrono::steady_clock::time_point deadline)
-      : snapshot_(std::move(snapshot)), deadline_(deadline) {}
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// @param snapshot file of the state, and without its extension of the CPU time so far
+  Run(std::string name, std::filesystem::path snapshot, Time deadline);
+
   /// File of the state of the run, whether it exists or not.
   const std::filesystem::path& snapshot() const { return snapshot_; }
   bool is_started() const { return std::filesystem::exists(snapshot_); }
-  bool must_stop() const { return std::chrono::steady_clock::now() >= deadline_; }
+  /// Whether the time is over, or the user has asked for the end (SIGINT, SIGTERM).
+  bool must_stop() const;
+  /// Whether the state has not been stored for a minute of CPU time.
+  bool must_store() const { return cpu_seconds() - stored_ > 60; }
+  /// To be called after the state was stored: stores the CPU time that belongs to it.
+  void note_stored();
+  /// Prints the share that is done and the core-hours that are left, at most every 20 seconds.
+  /// @param share from 0 to 1
+  void progress(double share);
+  /// CPU time of all threads, with all earlier pieces of the run [s].
+  double seconds() const { return earlier_ + cpu_seconds() - start_; }
 
  private:
+  std::string name_;
   std::filesystem::path snapshot_;
-  std::chrono::steady_clock::time_point deadline_;
+  Time deadline_, printed_;
+  double earlier_ = 0, start_, stored_;  // CPU times [s]
+  double first_share_ = -1;              // of this piece
 };
 
 /// The results of the runner.

@@ -197,11 +197,11 @@ void silo(Session& session) {
     cases = {{large, false, 1500, 0.2, 0, numerics}};
   else
     // The smaller silos first; of these one with half the step and one filled higher are controls.
-    cases = {{large, false, 30000, 0.6, 0.2, numerics}, {small, false, 30000, 2, 0.5, numerics},
+    cases = {{large, false, 30000, 0.6, 0.2, numerics}, {small, false, 30000, 1, 0.2, numerics},
              {large, false, 30000, 0.3, 0.1, half},     {large, false, 45000, 0.3, 0.1, numerics},
-             {large, true, 30000, 1, 0.3, numerics},    {large, false, 100000, 5, 0.5, numerics},
-             {small, false, 100000, 5, 0.5, numerics},  {large, true, 100000, 5, 0.5, numerics},
-             {small, true, 100000, 5, 0.5, numerics}};
+             {large, true, 30000, 0.6, 0.2, numerics},  {small, true, 30000, 1, 0.2, numerics},
+             {large, false, 100000, 5, 0.5, numerics},  {small, false, 100000, 5, 0.5, numerics},
+             {large, true, 100000, 5, 0.5, numerics},   {small, true, 100000, 5, 0.5, numerics}};
   double last_large = 0;
   for (const Case& c : cases) {
     if (!session.wants(c.run_name())) continue;
