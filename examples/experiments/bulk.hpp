@@ -68,8 +68,10 @@ struct Numerics {
 
 /// An empty world of balls.
 /// @param size smallest diameter [m]
-inline World world_of(double size, const Numerics& numerics, int threads,
-                      const moreau::Materials<Law>& laws = materials()) {
+template <class Law = bulk::Law>
+moreau::Simulation<moreau::Ball<double>, Law> world_of(double size, const Numerics& numerics,
+                                                       int threads,
+                                                       const moreau::Materials<Law>& laws) {
   moreau::ColouredOptions options;
   options.tolerance = numerics.tolerance;
   options.max_sweeps = numerics.max_sweeps;
@@ -77,10 +79,15 @@ inline World world_of(double size, const Numerics& numerics, int threads,
   moreau::Tolerances tolerances;
   tolerances.margin = numerics.margin;
   tolerances.skin = 0.1;
-  World world(size, laws, moreau::ColouredGaussSeidel(options), tolerances);
+  moreau::Simulation<moreau::Ball<double>, Law> world(
+      size, laws, moreau::ColouredGaussSeidel(options), tolerances);
   world.set_gravity({0, 0, -gravity});
   if (threads > 1) world.set_team(moreau::ThreadTeam(threads));
   return world;
+}
+/// The same with the published materials.
+inline World world_of(double size, const Numerics& numerics, int threads) {
+  return world_of(size, numerics, threads, materials());
 }
 
 /// What a run in pieces adds up.
@@ -157,7 +164,7 @@ inline Sums advance(Run& run, auto& world, const Numerics& numerics, double unti
 }
 
 /// Root of the mean square of the velocities [m/s].
-inline double mean_speed(const World& world) {
+inline double mean_speed(const auto& world) {
   double sum = 0;
   for (const moreau::BodyId grain : world.grains()) sum += world.velocity(grain).squaredNorm();
   return std::sqrt(sum / double(world.grain_count()));

@@ -19,7 +19,7 @@
 // The loosest packing was published for dice that were fluidized, the densest one for dice that were vibrated.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
 // between dice is not in the abstract: it is varied. Damped, walled, slow, rounded, long and smooth change one thing each: controls.
-// The first four have the first friction only. Friction 0 is a limit: poured and shaken dice only.
+// All but smooth have the first friction only. Friction 0 is a limit: poured and shaken dice only.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -287,7 +287,7 @@ const std::vector<Kind>& all_kinds() {  // the short runs first
       {"slow", "sediment at 0.03 m/s", Arrival::slow, 0, slow_step, false, 1},
       {"dense", "densest", Arrival::poured, 4, step, true, 3},
       {"smooth", "densest, edges rounded", Arrival::poured_rounded, 4, step, false, 3},
-      {"long", "densest, shaken for 16 s", Arrival::poured, 16, step, false, 3}};
+      {"long", "densest, shaken for 16 s", Arrival::poured, 16, step, false, 1}};
   return kinds;
 }
 

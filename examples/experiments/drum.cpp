@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -219,6 +220,64 @@ void run(Session& session, const Case& c, double interval, const std::vector<Num
   show();
 }
 
+/// Volume of the balls whose centres lie in a box away from walls and surface, over the volume of the box; then the mean
+/// height of the centres [m].
+std::array<double, 2> density(const World& world) {
+  constexpr double x = 0.03, y = 0.02, bottom = -0.08, top = -0.03;  // [m]
+  double solid = 0, height = 0;
+  for (const moreau::BodyId grain : world.grains()) {
+    const Vector& p = world.pose(grain).position;
+    const double r = world.bodies().material[grain.index()] == m1 ? 0.001 : 0.002;
+    height += p[2] / double(world.grain_count());
+    if (std::abs(p[0]) < x && std::abs(p[1]) < y && p[2] > bottom && p[2] < top)
+      solid += 4. / 3 * std::numbers::pi * r * r * r;
+  }
+  return {solid / (4 * x * y * (top - bottom)), height};
+}
+
+/// The published initial state in a drum that does not turn: is it at rest?
+void stand(Session& session, const Numerics& numerics, double until) {
+  constexpr double interval = 0.01;
+  if (!session.wants("at rest")) return;
+  const Result result = session.once("drum at rest, " + numerics.text(), [&](Run& run) {
+    World world = world_of(0.002, numerics, session.options().threads);
+    Numbers log;
+    const Sums sums = advance(
+        run, world, numerics, until, interval, log,
+        [&](World& empty) {
+          build(empty, half_depth, Order::spatial);
+          for (const moreau::BodyId wall : empty.walls()) empty.set_spin(wall, Vector::Zero());
+        },
+        [](const World& now) { return density(now); });
+    sums.append_to(log);
+    return log;
+  });
+  const Numbers& v = result.values;
+  const std::size_t n = (v.size() - 5) / 2;
+  std::vector<Numbers> rows;
+  for (std::size_t k = 0; k < n; ++k)
+    rows.push_back({1000 * interval * double(k), v[2 * k], 1000 * v[2 * k + 1]});
+  session.curve("drum_at_rest", {"t [ms]", "solid fraction", "mean height [mm]"}, rows);
+  Row row;
+  row.published = "–";
+  row.law = "SignoriniCoulomb";
+  row.step = numerics.step;
+  row.tolerance = numerics.tolerance;
+  row.grains = 38000;
+  row.seconds = result.seconds;
+  const auto add = [&](const std::string& figure, double value) {
+    row.figure = figure;
+    row.measured = value;
+    session.row(row);
+  };
+  add("initial state without rotation: solid fraction in the middle, at the start", rows[0][1]);
+  const std::string end = std::to_string(std::lround(1000 * until)) + " ms";
+  add("the same after " + end, rows.back()[1]);
+  add("initial state without rotation: mean height of the balls lost in " + end + " [mm]",
+      rows[0][2] - rows.back()[2]);
+  add("initial state without rotation: steps not solved", v[2 * n + 1]);
+}
+
 }  // namespace drum_parts
 
 void drum(Session& session) {
@@ -234,6 +293,7 @@ void drum(Session& session) {
     run(session, {numerics, 0.2, slice, "drum_slice"}, interval, published);
     return;
   }
+  stand(session, numerics, 0.1);
   run(session, {numerics, 5, slice, "drum_slice_1ms"}, often, published);
   run(session, {half, 5, slice, "drum_slice_half_ms"}, often, published);
   run(session, {numerics, 5, slice, "drum_slice_1ms_reversed", Order::reversed}, often, published);

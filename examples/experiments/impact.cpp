@@ -211,7 +211,7 @@ void impact(Session& session) {
   // The deep bed has twice the step; the control of it is the first one of the shallow beds.
   const Numerics numerics{5e-5, 1e-3, 0.2}, twice{1e-4, 1e-3, 0.2};
   // The published beds are looser than those of the standard preparation: a control that differs in the bed only.
-  const Preparation loose{1, 1.3};
+  const Preparation loose{1, 0.2, 1.3};
   std::vector<Case> cases{{shallow, {1, 2, 3}, "impact_25k.csv", numerics},
                           {shallow, {1}, "impact_25k.csv", twice},
                           {100000, {1}, "impact_100k.csv", twice},

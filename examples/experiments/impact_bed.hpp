@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/sample/random_deposition.hpp"
 
 #include "bulk.hpp"
 #include "session.hpp"
+#include "worlds.hpp"
 
 namespace experiments::impact_parts {
 
@@ -38,7 +40,7 @@ inline void add_box(auto& world, const Box& box) {
 }
 
 /// @param stretch factor of the heights above the floor
-inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64_t seed,
+inline void add_bed(auto& world, const Box& box, std::size_t count, std::uint64_t seed,
                     double stretch) {
   std::mt19937_64 random(seed);
   const std::vector<double> radii(count, diameter / 2);
@@ -55,18 +57,25 @@ inline void add_bed(World& world, const Box& box, std::size_t count, std::uint64
 /// How a bed is prepared. What the publication has is not known to us: the standard is the published materials.
 struct Preparation {
   double friction = 0;  ///< of all pairs while the bed settles; 0: the published ones
+  double rolling = 0;   ///< then also coefficient of resistance to rolling
   double stretch = 1;   ///< factor of the heights above the floor before the bed settles
 
   bool is_standard() const { return friction == 0 && stretch == 1; }
   /// For names of runs.
   std::string text() const {
     return is_standard() ? ""
-                         : ", settled with friction " + std::to_string(friction) + " from " +
+                         : ", settled with friction " + std::to_string(friction) +
+                               (rolling > 0 ? ", " + std::to_string(rolling) : "") + " from " +
                                std::to_string(stretch) + " times the height";
   }
+  template <class Law>
   moreau::Materials<Law> laws() const {
     return materials_of<Law>([&](moreau::MaterialId, moreau::MaterialId, double mu, double e) {
-      return Law(friction > 0 ? friction : mu, e);
+      const double used = friction > 0 ? friction : mu;
+      if constexpr (std::is_same_v<Law, Rolling>)
+        return Law(used, rolling, e);
+      else
+        return Law(used, e);
     });
   }
 };
@@ -76,19 +85,27 @@ struct Preparation {
 /// @param add (world): adds balls and box
 inline Numbers settle(Session& session, const std::string& key, double duration,
                       const Preparation& preparation, const auto& add) {
-  const Result result = session.once(key, [&](Run& run) {
+  const auto with_law = [&]<class Law>(Run& run, std::type_identity<Law>) {
     const Numerics numerics{2e-4, 1e-2, 0.2};
-    World world = world_of(diameter, numerics, session.options().threads, preparation.laws());
+    auto world =
+        world_of<Law>(diameter, numerics, session.options().threads, preparation.laws<Law>());
     Numbers log;
-    const Sums sums = advance(run, world, numerics, duration, duration, log, add, mean_speed);
+    const Sums sums = advance(run, world, numerics, duration, duration, log, add,
+                              [](const auto& settled) { return mean_speed(settled); });
     Numbers state;
     for (const moreau::BodyId grain : world.grains())
       for (const double x : world.pose(grain).position) state.push_back(x);
     state.push_back(mean_speed(world));
     state.push_back(1000 * sums.stepping / sums.steps);
     return state;
-  });
-  return result.values;
+  };
+  return session
+      .once(key,
+            [&](Run& run) {
+              return preparation.rolling > 0 ? with_law(run, std::type_identity<Rolling>())
+                                             : with_law(run, std::type_identity<Law>());
+            })
+      .values;
 }
 
 /// The bed of settle(), made by random deposition.
@@ -99,7 +116,7 @@ inline Numbers settled_bed(Session& session, const Box& box, std::size_t count, 
                           preparation.text();
   const double duration = preparation.is_standard() ? settling : 0.15;
   return settle(session, key, session.quick() ? 0.01 : duration, preparation,
-                [&](World& empty) { add_bed(empty, box, count, seed, preparation.stretch); });
+                [&](auto& empty) { add_bed(empty, box, count, seed, preparation.stretch); });
 }
 
 /// The bed of settle(), made of up to four copies of a settled bed, one above the other: the bed itself, mirrored along
@@ -111,7 +128,7 @@ inline Numbers stacked_bed(Session& session, std::size_t copies, std::size_t cou
   const std::string key = "/bed of " + std::to_string(copies * count) + " balls, " +
                           std::to_string(copies) + " copies, seed " + std::to_string(seed) +
                           preparation.text();
-  return settle(session, key, 0.06, preparation, [&](World& empty) {
+  return settle(session, key, 0.06, preparation, [&](auto& empty) {
     double top = floor_height;
     for (std::size_t k = 0; k + 3 < bed.size(); k += 3) top = std::max(top, bed[k + 2]);
     const double height = top + diameter / 2 - floor_height;

@@ -131,7 +131,7 @@ Result Session::once(const std::string& name, const std::function<Numbers(Run&)>
   fs::remove(snapshot);
   fs::remove(clock_of(snapshot));
   store_->done[key] = result;
-  say("  " + key + ": " + number(result.seconds) + " s");
+  if (result.seconds > 0.2) say("  " + key + ": " + number(result.seconds) + " s");
   return result;
 }
 

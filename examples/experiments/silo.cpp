@@ -88,7 +88,7 @@ Numbers settled(Run& run, const Case& c, int threads, double duration) {
   Numbers log;
   advance(
       run, world, numerics, duration, duration, log, [&](World& empty) { fill(empty, c); },
-      mean_speed);
+      [](const World& now) { return mean_speed(now); });
   Numbers state;
   for (const moreau::BodyId grain : world.grains())
     for (const double x : world.pose(grain).position) state.push_back(x);

@@ -18,15 +18,19 @@ if (has("drum")) {
 }
 do for [n in "25 50 100"] {
   name = sprintf("impact_%sk", n); part = name . "_so_far"
-  if (has(name) || has(part)) {
+  loose = name . (n eq "25" ? "_twice_the_step" : "") . "_loose"; loose_part = loose . "_so_far"
+  if (has(name) || has(part) || has(loose) || has(loose_part)) {
     set output folder . "/" . name . ".png"
-    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step %s µs, tolerance 1e-3", n, n eq "100" ? "100" : "50")
+    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step %s µs, tolerance 1e-3", n, has(name) && n ne "100" ? "50" : "100")
     set xlabel "t [ms]"; set ylabel "z [mm]"; set key top center
+    csv(name) = has(name) ? file(name) : "/dev/null"
     count = has(name) ? int(system(sprintf("head -1 '%s' | tr ',' '\n' | wc -l", file(name)))) : 2
     plot data . "/" . name . ".csv" using 1:(1000 * $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \
          data . "/" . name . ".csv" using 1:(1000 * $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
-         for [k = 3:count] (has(name) ? file(name) : "/dev/null") using 1:(1000 * column(k)) skip 1 with lines lw 1.5 lc rgb own title (k == 3 ? "moreau, each bed" : ""), \
-         (has(part) ? file(part) : "/dev/null") using 1:(1000 * $2) skip 1 with lines lw 2 dt 3 lc rgb own title has(part) ? "moreau, run not finished" : ""
+         for [k = 3:count] csv(name) using 1:(1000 * column(k)) skip 1 with lines lw 1.5 lc rgb own title (k == 3 ? "moreau, each bed" : ""), \
+         csv(part) using 1:(1000 * $2) skip 1 with lines lw 2 dt 3 lc rgb own title has(part) ? "moreau, run not finished" : "", \
+         csv(loose) using 1:(1000 * $2) skip 1 with lines lw 2 lc rgb last title has(loose) ? "moreau, loose bed, step 100 µs" : "", \
+         csv(loose_part) using 1:(1000 * $2) skip 1 with lines lw 2 lc rgb last title has(loose_part) ? "moreau, loose bed, run not finished" : ""
     set key top right
   }
 }
@@ -43,14 +47,14 @@ if (has("squeeze_10000_SignoriniCoulomb_500")) {
        csv("squeeze_10000_Compliant_200") using 1:3 skip 1 with lines lc rgb third title "Compliant, 20 µs"
   set key top right
 }
-if (has("silo_large_M1_100k") || has("silo_large_M1_30k")) {
+if (has("silo_large_M1_100k") || has("silo_large_M1_30k") || has("silo_large_M2_30k")) {
   set output folder . "/silo_count.png"
-  set title "Silo: balls below the orifice, M1, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:1.5]
+  set title "Silo: balls below the orifice, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:1.5]
   set xlabel "t [s]"; set ylabel "number of balls"
-  plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, 100,000, large orifice", \
-       data . "/silo_large_M1.csv" using 1:(100000 - $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, 100,000, large orifice", \
-       data . "/silo_small_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 dt 3 lc rgb third title "MUSEN, 100,000, small orifice", \
-       for [name in "silo_large_M1_100k silo_small_M1_100k silo_large_M1_30k silo_small_M1_30k"] \
+  plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, M1, 100,000, large orifice", \
+       data . "/silo_large_M1.csv" using 1:(100000 - $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, M1, 100,000, large orifice", \
+       data . "/silo_small_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 dt 3 lc rgb third title "MUSEN, M1, 100,000, small orifice", \
+       for [name in "silo_large_M1_100k silo_small_M1_100k silo_large_M1_30k silo_small_M1_30k silo_large_M2_30k silo_small_M2_30k"] \
          (has(name) ? file(name) : "/dev/null") using 1:3 skip 1 with points title (has(name) ? "moreau " . name[6:*] : "") noenhanced
   set key top right; set autoscale
 }
