@@ -30,6 +30,7 @@ TEST_CASE_TEMPLATE("the gap of a box at rest does not follow the step", ShapeT, 
     for (const double height : {0.0, 0.02})
       for (const double h : {1e-2, 1e-3, 1e-4, 1e-5}) {
         if (tilt > 0 && height == 0) continue;
+        if (h < 1e-4 && tilt == 0) continue;  // one with 70,000 steps
         if (h < 1e-3 && sanitizer_share > 1) continue;
         scenes::World<ShapeT> simulation(size,
                                          moreau::Materials<packing::Law>(1, packing::Law(0.5)),
