@@ -513,6 +513,10 @@ TEST_CASE("a file that is damaged, or is something else, gives an error with its
       {"strips.ply", edited(ply, "element face", "element tristrips")},
       {"cut_off_little.ply", little.substr(0, little.size() - 5)},
       {"long_list.ply",
+      {"upper_case.ply", edited(ply, "float x", "float X")},
+      {"no_height.ply", edited(ply, "float z", "float pz")},
+      {"twice.ply", edited(ply, "float z", "float y")},
+      {"upper_case_little.ply", edited(little, "float32 y", "float32 Y")},
        edited(little, std::string("\3\0\0\0\0", 5), std::string("\xff\0\0\0\0", 5))},
   };
   // Cut anywhere: each gives an error, or the triangles before the cut.

@@ -3,7 +3,9 @@
 // of its faces. Other properties and elements are read over.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -85,6 +87,17 @@ class PlyReader {
       }
       header.rest_of_line();
     }
+    for (const Element& element : elements_)
+      for (const char* axis : {"x", "y", "z"})
+        if (element.name == "vertex") require_coordinate(element, axis);
+  }
+  /// A vertex with "X" in place of "x" would lie at x = 0.
+  static void require_coordinate(const Element& element, const std::string& axis) {
+    const auto& all = element.properties;
+    const auto is_it = [&](const Property& one) { return one.name == axis; };
+    const auto at = std::find_if(all.begin(), all.end(), is_it);
+    if (at == all.end() || at->count != Type::none || std::count_if(at, all.end(), is_it) > 1)
+      throw std::runtime_error("element vertex must have one property " + axis + ", a number");
   }
   static Property property_of(MeshWords& header) {
     Property property;
