@@ -30,10 +30,13 @@ TEST_CASE("a table has its header and its numbers, shortest form") {
     csv.row(std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity(), 0.0,
             -0.0, std::size_t(1) << 63);
     csv.row(true, false, 1, -1, 0);
-    CHECK(csv.rows() == 3);
+    const double nan = std::numeric_limits<double>::quiet_NaN();  // 0 / 0 has a sign on x86
+    csv.row(std::copysign(nan, -1.), float(std::copysign(nan, -1.)), nan, 0, 0);
+    CHECK(csv.rows() == 4);
   }
   CHECK(read(path) ==
-        "t,f,x,v,f_g\n2e-04,6000,-0.1,0.1,1\nnan,-inf,0,-0,9223372036854775808\n1,0,1,-1,0\n");
+        "t,f,x,v,f_g\n2e-04,6000,-0.1,0.1,1\nnan,-inf,0,-0,9223372036854775808\n1,0,1,-1,0\n"
+        "nan,nan,nan,0,0\n");
 }
 
 TEST_CASE("columns say their units") {

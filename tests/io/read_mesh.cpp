@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -373,6 +374,7 @@ TEST_CASE("the same cube as many programs write it") {
                           "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"},
       {"counted_back.obj", quads + "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\n" +
                                "f -6 -5 -1 -2\nf -5 -8 -4 -1\n"},
+      {"comment.obj", "# exported from C:\\scans \\\n" + quads + "# end \\\n" + faces},
       {"continued.obj", quads + "f 1 4 \\\n 3 2\n" + faces.substr(faces.find('\n') + 1)},
       {"no_end.obj", (quads + faces).substr(0, quads.size() + faces.size() - 1)},
       {"tabs.obj",
@@ -511,12 +513,12 @@ TEST_CASE("a file that is damaged, or is something else, gives an error with its
       {"line.ply", edited(ply, "3 0 2 1", "2 0 2")},
       {"negative.ply", edited(ply, "3 0 2 1", "3 0 -2 1")},
       {"strips.ply", edited(ply, "element face", "element tristrips")},
-      {"cut_off_little.ply", little.substr(0, little.size() - 5)},
-      {"long_list.ply",
       {"upper_case.ply", edited(ply, "float x", "float X")},
       {"no_height.ply", edited(ply, "float z", "float pz")},
       {"twice.ply", edited(ply, "float z", "float y")},
       {"upper_case_little.ply", edited(little, "float32 y", "float32 Y")},
+      {"cut_off_little.ply", little.substr(0, little.size() - 5)},
+      {"long_list.ply",
        edited(little, std::string("\3\0\0\0\0", 5), std::string("\xff\0\0\0\0", 5))},
   };
   // Cut anywhere: each gives an error, or the triangles before the cut.
@@ -551,6 +553,26 @@ TEST_CASE("a file that is damaged, or is something else, gives an error with its
   std::filesystem::create_directory(folder / "folder.obj");
   CHECK_THROWS_WITH_AS(read_mesh(folder / "folder.obj", 1.0),
                        doctest::Contains("folder.obj': Is a directory"), std::runtime_error);
+}
+
+TEST_CASE("numbers that no double holds are 0 or infinite") {
+  const auto value_of = [](const std::string& word) {
+    double value = 7;
+    CHECK(detail::parse_number(word, value));
+    return value;
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const std::string& word :
+       {std::string("1.5e-400"), std::string("-1e-4000"), "0." + std::string(400, '0') + "1",
+        "0." + std::string(500, '0') + "1e+100", std::string("1e-99999999999999999999999")})
+    CHECK(value_of(word) == 0);
+  for (const std::string& word :
+       {std::string("1.5e400"), std::string("+1E+4000"), "1" + std::string(400, '0') + ".5",
+        "1" + std::string(500, '0') + "e-100", std::string("1e99999999999999999999999")}) {
+    CHECK(value_of(word) == infinity);
+    if (word.front() != '+') CHECK(value_of("-" + word) == -infinity);
+  }
+  CHECK(std::signbit(value_of("-1e-400")));
 }
 
 TEST_CASE("bytes changed at random give a mesh or an error") {

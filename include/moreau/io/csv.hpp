@@ -160,6 +160,11 @@ class CsvWriter {
   void append(bool yes, std::size_t start) { append(yes ? 1 : 0, start); }
   void append(auto number, std::size_t start) {
     if (lines_.size() > start) lines_ += ',';
+    if constexpr (std::is_floating_point_v<decltype(number)>)
+      if (std::isnan(number)) {  // without the sign that a NaN may have
+        lines_ += "nan";
+        return;
+      }
     char digits[64];  // the shortest form of a double has at most 24 characters
     const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
     lines_.append(digits, end);

@@ -59,6 +59,7 @@ inline MeshFile read_obj(std::string_view text) {
                std::find(passed_over.begin(), passed_over.end(), word) == passed_over.end()) {
       words.fail("'" + shown(word) + "' is no keyword of an OBJ file");
     }
+    if (word.starts_with('#')) words.rest_of_line();  // a backslash continues no comment
     while (!words.next_of_line().empty()) continue;
   }
   return file;
