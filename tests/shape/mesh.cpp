@@ -258,7 +258,7 @@ TEST_CASE("a rim along part of another rim") {
   };
   CHECK(found(0.5, 0) ==
         "triangle 1 = (4, 3, 5) must have vertices in common with triangle 0, along whose rim its "
-        "edge (3, 4) lies: call weld()");
+        "edge (3, 4) lies: call weld(), then divide_rims()");
   CHECK(found(1.5, 0) != "none");
   CHECK(found(2, 0) == "none");  // they touch at a point
   CHECK(found(0.5, 1e-7) != "none");
@@ -286,6 +286,53 @@ TEST_CASE_TEMPLATE("the size of a mesh does not depend on the origin", S, Plane,
     }
   }
 }
+TEST_CASE_TEMPLATE("tiles of two sizes are joined", T, double, float) {
+  using S = Space<3, T>;
+  const auto faults = [](const FacetMesh<S>& mesh) {
+    const auto fault = find_wall_fault(mesh);
+    return fault ? fault->message : "none";
+  };
+  const auto area = [](const FacetMesh<S>& mesh) {
+    T sum = 0;
+    for (const auto& f : mesh.facets)
+      sum += (mesh.vertices[f[1]] - mesh.vertices[f[0]])
+                 .cross(mesh.vertices[f[2]] - mesh.vertices[f[0]])
+                 .norm() /
+             2;
+    return sum;
+  };
+  // Two triangles beside three, whose vertex 4 lies in the middle of the edge (2, 3).
+  FacetMesh<S> two{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 1, 0}, {0, 2, 0}, {1, 2, 0}},
+                   {{0, 1, 2}, {0, 2, 3}, {3, 4, 5}, {4, 6, 5}, {4, 2, 6}}};
+  CHECK(faults(two).find("divide_rims()") != std::string::npos);
+  CHECK(divide_rims(two, T(1e-5)) == 1);
+  CHECK(faults(two) == "none");
+  CHECK(two.facets.size() == 6);
+  CHECK(area(two) == doctest::Approx(2));
+  CHECK(divide_rims(two, T(1e-5)) == 0);
+  // A triangle among small ones along all of its edges, on a slope.
+  constexpr std::uint32_t n = 5;
+  FacetMesh<S> one{{{0, 0, 0}, {1, 0, T(0.3)}, {0, 1, T(0.2)}}, {{0, 1, 2}}};
+  for (std::uint32_t edge = 0; edge < 3; ++edge) {
+    const typename S::Vector begin = one.vertices[edge], end = one.vertices[(edge + 1) % 3];
+    const auto out = std::uint32_t(one.vertices.size());
+    one.vertices.push_back(T(0.7) * (begin + end) - T(0.4) * one.vertices[(edge + 2) % 3]);
+    std::uint32_t last = edge;
+    for (std::uint32_t k = 1; k <= n; ++k) {
+      const auto next = k == n ? (edge + 1) % 3 : std::uint32_t(one.vertices.size());
+      if (k < n) one.vertices.push_back(begin + T(k) / n * (end - begin));
+      one.facets.push_back({next, last, out});
+      last = next;
+    }
+  }
+  const T before = area(one);
+  CHECK(faults(one) != "none");
+  CHECK(divide_rims(one, T(1e-5)) == 3 * (n - 1));
+  CHECK(faults(one) == "none");
+  CHECK(area(one) == doctest::Approx(before).epsilon(1e-5));
+  CHECK_THROWS_AS(divide_rims(one, T(0)), std::invalid_argument);
+}
+
 
 TEST_CASE_TEMPLATE("weld joins what lies within the tolerance", S, Plane, Volume) {
   FacetMesh<S> mesh = soup(cube(S{}));

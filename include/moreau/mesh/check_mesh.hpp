@@ -239,7 +239,8 @@ std::optional<MeshFault> find_unwelded_rim(const FacetMesh<S>& mesh,
                      mesh, MeshDefect::unwelded, facet,
                      "have vertices in common with " + std::string(FacetWords<S>::facet) + " " +
                          std::to_string(other) + ", along whose rim its " + FacetWords<S>::ridge +
-                         " " + list_of(rims[r].vertices) + " lies: call weld()");
+                         " " + list_of(rims[r].vertices) + " lies: call weld()" +
+                         (S::dim > 2 ? ", then divide_rims()" : ""));
                });
   }
   return first;
