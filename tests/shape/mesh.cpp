@@ -23,6 +23,8 @@ using Volume = Space<3, double>;
 
 /// A cube of edge 1 with a corner at the origin, in the plane a square.
 FacetMesh<Volume> cube(Volume = {}) {
+using Flat = Space<2, float>;
+using Solid = Space<3, float>;
   return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
           {{0, 2, 1},
            {0, 3, 2},
@@ -331,6 +333,40 @@ TEST_CASE_TEMPLATE("tiles of two sizes are joined", T, double, float) {
   CHECK(faults(one) == "none");
   CHECK(area(one) == doctest::Approx(before).epsilon(1e-5));
   CHECK_THROWS_AS(divide_rims(one, T(0)), std::invalid_argument);
+TEST_CASE_TEMPLATE("the size of a mesh does not depend on the origin", S, Plane, Volume) {
+  for (const double far : {0.0, 1e4, 1e6}) {
+    FacetMesh<S> mesh;
+    append(mesh, cube(S{}), typename S::Vector(S::Vector::Constant(far)));
+    CHECK(size_of(mesh) == doctest::Approx(1).epsilon(1e-9));
+    CHECK_NOTHROW(convex_of_mesh(mesh));
+    // A dent of a thousandth is seen wherever it is.
+    auto& corner = mesh.vertices[mesh.facets[0][0]];
+    const typename S::Vector other = mesh.vertices[mesh.facets[0][1]];
+    mesh.vertices.push_back((corner + other) / 2);
+    mesh.vertices.back()[S::dim - 1] += 1e-3;
+    CHECK(worst_concavity(mesh, hull_of_mesh(mesh)).depth < 1e-8);  // no facet has it yet
+    const auto middle = std::uint32_t(mesh.vertices.size() - 1);
+    if constexpr (S::dim == 2) {
+      mesh.facets[0] = {0, middle};
+      mesh.facets.push_back({middle, 1});
+      CHECK(message_of([&] { convex_of_mesh(mesh); }).find("concavity = 0.001") !=
+            std::string::npos);
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("a vertex without a facet sets no tolerance", S, Plane, Volume, Flat, Solid) {
+  FacetMesh<S> mesh;
+  for (const auto& x : cube(Space<S::dim>{}).vertices)
+    mesh.vertices.push_back(x.template cast<typename S::Scalar>());
+  for (const auto& facet : cube(Space<S::dim>{}).facets) mesh.facets.push_back(facet);
+  const auto size = size_of(mesh), rounding = detail::rounding_of(mesh);
+  mesh.vertices.push_back(S::Vector::Constant(1e4));  // a marker, as files have it
+  CHECK(size_of(mesh) == size);
+  CHECK(detail::rounding_of(mesh) == rounding);
+  mesh.facets.clear();
+  CHECK(size_of(mesh) > 9e3);
+}
 }
 
 

@@ -65,13 +65,31 @@ Eigen::Matrix<T, 2, 1> area_vector(const Eigen::Matrix<T, 2, 2>& corners) {
   return {corners(1, 1) - corners(1, 0), corners(0, 0) - corners(0, 1)};
 }
 
-/// The longest edge of the box around the vertices [m], wherever the origin is. Tolerances of meshes
-/// are relative to it. A vertex with a coordinate that is not finite is left out.
+namespace detail {
+
+/// Calls use(x) for the corners of all facets that are finite vertices; without facets for all such vertices. A vertex
+/// that no facet has, such as a marker in a file, is no part of the surface.
+template <class S>
+void for_each_corner(const FacetMesh<S>& mesh, const auto& use) {
+  const auto add = [&](const typename S::Vector& x) {
+    if (x.allFinite()) use(x);
+  };
+  if (mesh.facets.empty())
+    for (const auto& x : mesh.vertices) add(x);
+  for (const auto& facet : mesh.facets)
+    for (const std::uint32_t v : facet)
+      if (v < mesh.vertices.size()) add(mesh.vertices[v]);
+}
+
+}  // namespace detail
+
+/// The longest edge of the box around the facets [m], wherever the origin is. Tolerances of meshes
+/// are relative to it. A vertex with a coordinate that is not finite, or without a facet, is left out; if there
+/// are no facets all finite vertices count.
 template <class S>
 typename S::Scalar size_of(const FacetMesh<S>& mesh) {
   Aabb<S> box;
-  for (const auto& x : mesh.vertices)
-    if (x.allFinite()) box.merge(x);
+  detail::for_each_corner(mesh, [&](const typename S::Vector& x) { box.merge(x); });
   return std::max<typename S::Scalar>((box.upper - box.lower).maxCoeff(), 0);
 }
 
@@ -81,8 +99,9 @@ namespace detail {
 template <class S>
 typename S::Scalar largest_coordinate(const FacetMesh<S>& mesh) {
   typename S::Scalar largest = 0;
-  for (const auto& x : mesh.vertices)
-    if (x.allFinite()) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  for_each_corner(mesh, [&](const typename S::Vector& x) {
+    largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  });
   return largest;
 }
 /// Largest change of a length by the rounding of coordinates [m].
