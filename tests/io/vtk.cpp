@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/io/vtk.hpp"
 
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "moreau/shape/capsule.hpp"
@@ -252,6 +256,24 @@ TEST_CASE("arrays that do not fit and folders that do not exist are refused") {
   CHECK_THROWS_AS(data.write(folder / "missing" / "x.vtp"), std::system_error);
   data.write(folder / "x.vtp");
   CHECK(Vtp(folder / "x.vtp").array<double>("PointData", "uv") == two);
+}
+
+TEST_CASE("points and cells after an array of them are refused") {
+  const TemporaryFolder folder("vtk");
+  for (const auto place : {VtkPolyData::On::points, VtkPolyData::On::cells}) {
+    VtkPolyData data;
+    const auto add = [&] {
+      const std::int32_t point = data.add_point(Eigen::Vector3d(0, 0, 0));
+      data.add_cell(VtkPolyData::Cells::vertices, std::span(&point, 1));
+    };
+    add();
+    const float one = 1;
+    data.add_array<float>(place, "one", 1, std::span(&one, 1));
+    add();
+    CHECK_THROWS_WITH_AS(data.write(folder / "a.vtp"), doctest::Contains("add arrays last"),
+                         std::invalid_argument);
+    CHECK_FALSE(std::filesystem::exists(folder / "a.vtp"));
+  }
 }
 
 TEST_CASE("names that XML would not take are refused") {

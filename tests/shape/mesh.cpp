@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdint>
 #include <doctest/doctest.h>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "moreau/mesh/check_mesh.hpp"
 #include "moreau/mesh/convex_of_mesh.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
 #include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/sample/concave_mesh.hpp"
 #include "moreau/shape/regular_shape.hpp"
@@ -20,11 +23,11 @@ namespace {
 using namespace moreau;
 using Plane = Space<2, double>;
 using Volume = Space<3, double>;
+using Flat = Space<2, float>;
+using Solid = Space<3, float>;
 
 /// A cube of edge 1 with a corner at the origin, in the plane a square.
 FacetMesh<Volume> cube(Volume = {}) {
-using Flat = Space<2, float>;
-using Solid = Space<3, float>;
   return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
           {{0, 2, 1},
            {0, 3, 2},
@@ -88,6 +91,22 @@ TEST_CASE_TEMPLATE("mass properties of a mesh are those of its polytope", S, Pla
   CHECK((whole.center - far - S::Vector::Constant(0.5)).norm() < 1e-12);
   CHECK((whole.inertia - exact.inertia).norm() < 1e-12);
   CHECK(polytope.vertex_count() == std::size_t(1) << S::dim);
+}
+
+TEST_CASE_TEMPLATE("a mesh without a volume or a density has no mass", S, Plane, Volume) {
+  auto mesh = cube(S{});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double density : {0., -1., nan})
+    CHECK(message_of([&] {
+            (void)mass_properties(mesh, density);
+          }).find("mass_properties: density") == 0);
+  for (auto& facet : mesh.facets) std::swap(facet[0], facet[1]);  // inside out
+  CHECK(message_of([&] {
+          (void)mass_properties(mesh, 1.);
+        }).find("mass_properties: volume of the mesh = -") == 0);
+  mesh.facets.resize(1);
+  for (auto& x : mesh.vertices) x[S::dim - 1] = 0;
+  CHECK(message_of([&] { (void)mass_properties(mesh, 1.); }).find("mass_properties: volume") == 0);
 }
 
 TEST_CASE_TEMPLATE("a closed surface in every form", S, Plane, Volume) {
@@ -267,27 +286,6 @@ TEST_CASE("a rim along part of another rim") {
   CHECK(found(0.5, 1e-4) == "none");
 }
 
-TEST_CASE_TEMPLATE("the size of a mesh does not depend on the origin", S, Plane, Volume) {
-  for (const double far : {0.0, 1e4, 1e6}) {
-    FacetMesh<S> mesh;
-    append(mesh, cube(S{}), typename S::Vector(S::Vector::Constant(far)));
-    CHECK(size_of(mesh) == doctest::Approx(1).epsilon(1e-9));
-    CHECK_NOTHROW(convex_of_mesh(mesh));
-    // A dent of a thousandth is seen wherever it is.
-    auto& corner = mesh.vertices[mesh.facets[0][0]];
-    const typename S::Vector other = mesh.vertices[mesh.facets[0][1]];
-    mesh.vertices.push_back((corner + other) / 2);
-    mesh.vertices.back()[S::dim - 1] += 1e-3;
-    CHECK(worst_concavity(mesh, hull_of_mesh(mesh)).depth < 1e-8);  // no facet has it yet
-    const auto middle = std::uint32_t(mesh.vertices.size() - 1);
-    if constexpr (S::dim == 2) {
-      mesh.facets[0] = {0, middle};
-      mesh.facets.push_back({middle, 1});
-      CHECK(message_of([&] { convex_of_mesh(mesh); }).find("concavity = 0.001") !=
-            std::string::npos);
-    }
-  }
-}
 TEST_CASE_TEMPLATE("tiles of two sizes are joined", T, double, float) {
   using S = Space<3, T>;
   const auto faults = [](const FacetMesh<S>& mesh) {
@@ -333,6 +331,8 @@ TEST_CASE_TEMPLATE("tiles of two sizes are joined", T, double, float) {
   CHECK(faults(one) == "none");
   CHECK(area(one) == doctest::Approx(before).epsilon(1e-5));
   CHECK_THROWS_AS(divide_rims(one, T(0)), std::invalid_argument);
+}
+
 TEST_CASE_TEMPLATE("the size of a mesh does not depend on the origin", S, Plane, Volume) {
   for (const double far : {0.0, 1e4, 1e6}) {
     FacetMesh<S> mesh;
@@ -367,8 +367,6 @@ TEST_CASE_TEMPLATE("a vertex without a facet sets no tolerance", S, Plane, Volum
   mesh.facets.clear();
   CHECK(size_of(mesh) > 9e3);
 }
-}
-
 
 TEST_CASE_TEMPLATE("weld joins what lies within the tolerance", S, Plane, Volume) {
   FacetMesh<S> mesh = soup(cube(S{}));

@@ -107,12 +107,18 @@ class VtkPolyData {
     const std::size_t count = place == On::points ? point_count() : cell_count();
     require(values.size() == components * count, "VtkPolyData::add_array", name, values.size(),
             "values must be components times points or cells");
-    arrays_.push_back({place, element(name, components, values)});
+    arrays_.push_back({place, count, element(name, components, values)});
   }
 
   /// Writes the .vtp file, whole or not at all.
+  /// @throws std::invalid_argument if points or cells were added after an array of them
   /// @throws std::system_error naming the path if the file cannot be written
   void write(const std::filesystem::path& path) {
+    for (const Array& array : arrays_) {
+      const std::size_t now = array.place == On::points ? point_count() : cell_count();
+      require(array.count == now, "VtkPolyData::write", "values of an array", array.count,
+              "must be those of all points or cells: add arrays last");
+    }
     const std::size_t kept = appended_.size();
     std::string xml = header();
     xml += "<Points>\n" + element("Points", 3, std::span<const float>(points_)) + "</Points>\n";
@@ -138,6 +144,7 @@ class VtkPolyData {
   };
   struct Array {
     On place;
+    std::size_t count;  ///< of the points or cells
     std::string element;
   };
 

@@ -134,11 +134,13 @@ Moments<S> moments_of(const FacetMesh<S>& mesh, const typename S::Vector& about)
 
 /// Mass, centre of mass in the frame of the mesh, and inertia about the centre of mass of the solid
 /// that a closed mesh bounds: the exact integral over the solid. The mesh is not checked
-/// (require_solid() in check_mesh.hpp does).
-/// @param density [kg/m^D]
+/// (require_solid() in check_mesh.hpp does). Zero of a mesh without facets.
+/// @param density [kg/m^D], > 0
+/// @throws std::invalid_argument unless the density and the volume are finite and > 0
 template <class S>
 MassProperties<S> mass_properties(const FacetMesh<S>& mesh, typename S::Scalar density) {
   using Vector = typename S::Vector;
+  require_positive(density, "mass_properties", "density");
   if (mesh.facets.empty()) return {};
   // Three passes, each about a better centre: a scan may lie far from the origin of its frame.
   Vector center = mesh.vertices[mesh.facets[0][0]];
@@ -147,6 +149,7 @@ MassProperties<S> mass_properties(const FacetMesh<S>& mesh, typename S::Scalar d
     center += rough.first / rough.volume;
   }
   const Moments<S> moments = moments_of(mesh, center);
+  require_positive(moments.volume, "mass_properties", "volume of the mesh");
   return {density * moments.volume, center, density * moments.centered().inertia()};
 }
 
