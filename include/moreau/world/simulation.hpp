@@ -372,12 +372,13 @@ class Simulation : public BodyControl<ShapeT> {
               "must be of bodies that exist");
     require(dynamics_.is_valid(contacts_.size(), bodies().size()), "Simulation", "contacts",
             contacts_.size(), "must be as many as the laws have memories");
+    reach_ = detail::reach_of<S>(materials_);
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 
   void remove(std::span<const BodyId> grains, const char* function);
 
-  Scalar reach() const { return detail::reach_of<S>(materials_); }
+  Scalar reach() const { return reach_; }  ///< reach_of() of the materials [m]
   /// Lengths of detection: bridges act beyond the margin.
   DetectionLengths<Scalar> lengths() const {
     DetectionLengths<Scalar> lengths = tolerances_.lengths(grain_size_);
@@ -426,6 +427,8 @@ class Simulation : public BodyControl<ShapeT> {
   [[no_unique_address]] std::conditional_t<BridgingLaw<Law, S>, detail::Bridges<S, Law>,
                                            detail::NoBridges>
       bridges_;
+  Scalar reach_ = 0;
+  Scalar last_step_ = 0;
   detail::ChordVelocities<ShapeT> chords_;
   detail::MarginAttempts attempts_;
   CellMotion<S> cell_motion_;  // of a periodic cell that can deform

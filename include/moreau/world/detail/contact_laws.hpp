@@ -39,15 +39,24 @@ class ContactLaws {
   using Context = StepContext<S, Law>;
 
   /// Fills the table of laws: the variants of the first law of the materials, then those of the second, ...
+  /// It stays from step to step: the materials have a law for each pair of materials.
   void list_variants(const Context& context, Problem& problem) {
     problem.law_of.resize(context.contacts.size());
+    if (is_listed_ && !problem.laws.empty()) return;
+    is_listed_ = true;
     problem.laws.clear();
-    for (const Law& law : context.materials.laws())
+    const auto& laws = context.materials.laws();
+    if constexpr (StaticFrictionLaw<Law, S>)
+      has_static_friction_ = std::any_of(laws.begin(), laws.end(),
+                                         [](const Law& law) { return law.has_static_friction(); });
+    for (const Law& law : laws)
       if constexpr (stateful)
         for (std::size_t k = 0; k < Law::variants; ++k) problem.laws.push_back(law.variant(k));
       else
         problem.laws.push_back(law);
   }
+  /// The next list_variants() fills the table again: the materials are others.
+  void forget_variants() { is_listed_ = false; }
   /// Chooses the law of each contact, computes the relative velocities before the step and adds the
   /// offsets of the laws to b.
   /// @param velocities of the bodies before the step, in the configuration of the contacts [m/s, rad/s]
@@ -105,7 +114,8 @@ class ContactLaws {
         contacts.variants[c] =
             static_cast<std::uint32_t>(laws[contacts.points[c].law].variant_after(
                 contacts.variants[c], Vector(pushes[c].template head<S::dim>())));
-      if constexpr (StaticFrictionLaw<Law, S>) hold(problem, laws, contacts, pushes, accuracy);
+      if constexpr (StaticFrictionLaw<Law, S>)
+        if (has_static_friction_) hold(problem, laws, contacts, pushes, accuracy);
     }
   }
 
@@ -125,13 +135,10 @@ class ContactLaws {
     void add(const Largest& other) { value = std::max(value, other.value); }
   };
 
-  /// Gives the contacts that do not slide the variant at rest, if a law has static friction.
+  /// Gives the contacts that do not slide the variant at rest.
   template <class Contacts>
   MOREAU_COLD static void hold(const Problem& problem, std::span<const Law> laws,
                                Contacts& contacts, std::span<const Row> pushes, double accuracy) {
-    if (std::none_of(laws.begin(), laws.end(),
-                     [](const Law& law) { return law.has_static_friction(); }))
-      return;
     const auto at_rest = [&](std::size_t c) {
       return static_cast<std::uint32_t>(
           laws[contacts.points[c].law].variant_at_rest(contacts.variants[c]));
@@ -165,7 +172,9 @@ class ContactLaws {
   }
 
   RestitutionLimit<S, Law> limit_;
-  List<Vector> before_;  // one per contact
+  List<Vector> before_;     // one per contact
+  bool is_listed_ = false;  // whether the problem has the table of the present materials
+  bool has_static_friction_ = false;
 };
 
 }  // namespace moreau::detail

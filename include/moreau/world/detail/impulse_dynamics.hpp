@@ -125,6 +125,7 @@ class ImpulseDynamics {
   }
   /// The materials of the step before, which the user replaces: springs remember pushes against their attraction.
   void keep_materials([[maybe_unused]] const Materials<Law>& before) {
+    laws_.forget_variants();
     if constexpr (compliant && !bonding) attraction_.keep(before);
   }
   auto& bonds() { return bonds_; }              ///< BondList of a law with bonds

@@ -21,6 +21,7 @@ Simulation<ShapeT, Law, Integrator, Broad, Solver>::Simulation(Scalar grain_size
     : grain_size_(grain_size),
       tolerances_(tolerances),
       materials_(materials),
+      reach_(detail::reach_of<S>(materials)),
       dynamics_(std::make_from_tuple<Dynamics>(parts)) {
   // Not in the class, where further errors would hide the reason.
   static_assert(sizeof(detail::Policies<S, Law, Integrator, Broad, Solver>) > 0);

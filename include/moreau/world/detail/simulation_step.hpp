@@ -148,12 +148,14 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_materials(
   require(materials.count() == materials_.count(), "Simulation::set_materials", "count",
           materials.count(), "must stay as it was");
   const Materials<Law> before = std::exchange(materials_, materials);
-  if (!cell().is_open() && reach() > detail::reach_of<S>(before)) {
+  const Scalar reach_before = std::exchange(reach_, detail::reach_of<S>(materials));
+  if (!cell().is_open() && reach_ > reach_before) {
     try {
       detector_.set_cell(cell(), lengths(), "Simulation::set_materials");
     } catch (...) {
       materials_ = before;
       throw;
+      reach_ = reach_before;
     }
   }
   if constexpr (set_valued) dynamics_.keep_materials(before);
