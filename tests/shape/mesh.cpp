@@ -489,3 +489,30 @@ TEST_CASE("a corner that is nearly flat is removed first") {
   CHECK(fewer.shape.volume() == doctest::Approx(1));
   CHECK(fewer.volume_error == doctest::Approx(0.01 / 3).epsilon(0.02));
 }
+
+TEST_CASE_TEMPLATE("vertices along a straight crest are no tips, in either precision", T, double,
+                   float) {
+  using S = Space<3, T>;
+  using V = typename S::Vector;
+  constexpr int pieces = 12;
+  int tips = 0;
+  for (int k = 0; k < 20; ++k) {
+    const auto turn = S::exp({T(0.3) * T(k), T(0.7) - T(0.2) * T(k), T(0.1)});
+    const auto at = [&](T along, T aside, T height) { return turn * V(along, aside, height); };
+    FacetMesh<S> roof;
+    for (int i = 0; i <= pieces; ++i) {
+      const T along = T(i) / pieces;
+      for (const V& x : {at(along, -1, -1), at(along, 0, 0), at(along, 1, -1)})
+        roof.vertices.push_back(x);
+    }
+    for (std::uint32_t i = 0; i < pieces; ++i)
+      for (const std::uint32_t side : {0U, 1U}) {
+        const std::uint32_t a = 3 * i + side, b = a + 1;
+        roof.facets.push_back({a, a + 3, b});
+        roof.facets.push_back({b, a + 3, b + 3});
+      }
+    const MeshWall<S> wall(roof);
+    for (std::uint32_t i = 1; i < pieces; ++i) tips += wall.is_tip(3 * i + 1);
+  }
+  CHECK(tips == 0);
+}

@@ -3,9 +3,11 @@
 // possible at each of them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -83,15 +85,26 @@ template <class ConvexRidge>
 void TipNormals<S>::set_tips(std::span<const Vector> vertices,
                              std::span<const ConvexRidge> convex) {
   is_tip_.assign(vertices.size(), 0);
-  std::vector<Vector> first(vertices.size(), Vector::Zero());
+  Scalar far = 0;
+  for (const Vector& x : vertices) far = std::max(far, x.cwiseAbs().maxCoeff());
+  const Scalar rounding = 4 * std::numeric_limits<Scalar>::epsilon() * far;  // of a vertex [m]
+  std::vector<Vector> first(vertices.size(), Vector::Zero());                // of each vertex
+  std::vector<Scalar> inverse(vertices.size(), 0);  // 1 / length of its first ridge
   for (const ConvexRidge& ridge : convex)
     for (const std::uint32_t v : ridge.vertices) {
       if (ridge.vertices.size() == 1) is_tip_[v] = 1;
       for (const std::uint32_t w : ridge.vertices) {
         if (w == v) continue;
-        const Vector along = (vertices[w] - vertices[v]).normalized();
-        if (first[v].isZero(0)) first[v] = along;
-        if (std::abs(along.dot(first[v])) < Scalar(1 - 1e-10)) is_tip_[v] = 1;
+        const Vector ends = vertices[w] - vertices[v];
+        const Scalar length = ends.norm();
+        const Vector along = ends / length;
+        if (first[v].isZero(0)) {
+          first[v] = along;
+          inverse[v] = 1 / length;
+        }
+        // The sine of their angle: in single precision its cosine is 1 to rounding.
+        const Scalar sine = (along - along.dot(first[v]) * first[v]).norm();
+        if (sine > Scalar(1.5e-5) + rounding * (inverse[v] + 1 / length)) is_tip_[v] = 1;
       }
     }
 }
