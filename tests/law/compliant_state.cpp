@@ -9,6 +9,8 @@
 #include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 
 namespace {
@@ -35,8 +37,8 @@ struct Pair {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("compliant: a restart and a new grain keep what springs remember", S, Space<2>,
-                   Space<3>) {
+TEST_CASE_TEMPLATE("compliant: a restart and a new grain keep what springs remember", S,
+                   MOREAU_TYPES((Space<2>), (Space<3>))) {
   using Vector = typename S::Vector;
   Pair<S> pair;
   auto& world = pair.world;
@@ -56,7 +58,7 @@ TEST_CASE_TEMPLATE("compliant: a restart and a new grain keep what springs remem
 }
 
 TEST_CASE_TEMPLATE("compliant: another attraction does not compress the springs at once", S,
-                   Space<2>, Space<3>) {
+                   MOREAU_TYPES((Space<2>), (Space<3>))) {
   Pair<S> pair;
   auto& world = pair.world;
   double energy = 0;

@@ -6,6 +6,7 @@
 
 #include "physics/standing.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 
 using moreau::Polygon;
 using moreau::Polyhedron;
@@ -78,7 +79,7 @@ TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedr
 // Their contacts bore a load in the step before, and bear none now.
 TEST_CASE_TEMPLATE(
     "the upper part of a stack that loses a block falls freely, and steps are solved", ShapeT,
-    Polyhedron<>, Polygon<>, Polygon<float>) {
+    MOREAU_TYPES((Polyhedron<>, Polygon<>), (Polygon<float>))) {
   using Scalar = typename moreau::SpaceOf<ShapeT>::Scalar;
   constexpr double h = 1e-3;
   constexpr int settle_steps = rounds(100), falls = 5;
