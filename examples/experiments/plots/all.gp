@@ -105,15 +105,17 @@ if (has("dice")) {
   set output folder . "/dice.png"
   set title "Dice: solid fraction, loosest and sediment (open), poured (crosses) and densest (filled)"
   set xlabel "faces"; set ylabel "solid fraction"; set xrange [3:21]; set yrange [0.4:0.75]
-  of(column, low) = sprintf("< awk -F, -v low=%d 'NR > 1 && ($2 < 0.3) == low && $%d != \"nan\" {print $1 \",\" $%d}' '%s'", low, column, column, file("dice"))
+  of(column, friction) = sprintf("< awk -F, 'NR > 1 && $2 == %s && $%d != \"nan\" {print $1 \",\" $%d}' '%s'", friction, column, column, file("dice"))
   plot file("dice") using 1:4 skip 1 with points pt 4 ps 2 lc rgb other title "Baker and Kudrolli, loosest", \
        file("dice") using 1:6 skip 1 with points pt 5 ps 2 lc rgb other title "densest", \
-       of(3, 1) using ($1 - 0.15):2 with points pt 6 ps 1.5 lc rgb own title "moreau, friction 0.2", \
-       of(5, 1) using ($1 - 0.15):2 with points pt 7 ps 1.5 lc rgb own notitle, \
-       of(7, 1) using ($1 - 0.15):2 with points pt 2 ps 1.5 lc rgb own notitle, \
-       of(3, 0) using ($1 + 0.15):2 with points pt 8 ps 1.5 lc rgb last title "moreau, friction 0.5", \
-       of(5, 0) using ($1 + 0.15):2 with points pt 9 ps 1.5 lc rgb last notitle, \
-       of(7, 0) using ($1 + 0.15):2 with points pt 2 ps 1.5 lc rgb last notitle, \
-       of(11, 0) using 1:2 with points pt 12 ps 1.8 lw 2 lc rgb "black" title "sediment with rounded edges, friction 0.5"
+       of(3, "0.5") using ($1 + 0.15):2 with points pt 8 ps 1.5 lc rgb last title "moreau, friction 0.5", \
+       of(5, "0.5") using ($1 + 0.15):2 with points pt 9 ps 1.5 lc rgb last notitle, \
+       of(7, "0.5") using ($1 + 0.15):2 with points pt 2 ps 1.5 lc rgb last notitle, \
+       of(3, "0.2") using ($1 - 0.15):2 with points pt 6 ps 1.5 lc rgb own title "moreau, friction 0.2", \
+       of(5, "0.2") using ($1 - 0.15):2 with points pt 7 ps 1.5 lc rgb own notitle, \
+       of(7, "0.2") using ($1 - 0.15):2 with points pt 2 ps 1.5 lc rgb own notitle, \
+       of(5, "0") using ($1 - 0.3):2 with points pt 11 ps 1.5 lc rgb third title "moreau, friction 0", \
+       of(7, "0") using ($1 - 0.3):2 with points pt 2 ps 1.5 lc rgb third notitle, \
+       of(11, "0.5") using 1:2 with points pt 12 ps 1.8 lw 2 lc rgb "black" title "sediment with rounded edges, friction 0.5"
   set key top right; set autoscale
 }
