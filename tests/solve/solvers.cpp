@@ -199,6 +199,51 @@ TEST_CASE_TEMPLATE("a warm start that is not finite counts as zero", S, Space<2>
   }
 }
 
+TEST_CASE_TEMPLATE("velocities that are not finite are not solved", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  const auto check = [](const auto& solver) {
+    Assembly<S> problem(3);
+    problem.free[problem.contacts.back().a][0] = std::numeric_limits<T>::quiet_NaN();
+    problem.op.assemble(problem.contacts, problem.roots, problem.free);
+    std::vector<typename S::Vector> impulses;
+    const SolveReport report = problem.solve(solver, problem.laws, impulses);
+    CHECK_FALSE(report.converged);
+    CHECK(report.residual == std::numeric_limits<double>::infinity());
+    CHECK(report.relative_approach == std::numeric_limits<double>::infinity());
+  };
+  ColouredOptions coloured;
+  coloured.tolerance = 1e-4;
+  coloured.max_sweeps = 50;
+  check(ColouredGaussSeidel(coloured));
+  NonlinearGaussSeidel::Options plain;
+  plain.tolerance = 1e-4;
+  plain.max_sweeps = 50;
+  check(NonlinearGaussSeidel(plain));
+}
+
+TEST_CASE_TEMPLATE("the rounding of a fast body excuses no other one", S, MOREAU_SPACES) {
+  using T = typename S::Scalar;
+  Assembly<S> assembly(3);
+  auto problem = assembly.problem();
+  const std::vector<typename S::Vector> none(problem.size(), S::Vector::Zero());
+  const auto measured = [&] {
+    SolveReport report;
+    measure_residual(problem, std::span<const typename S::Vector>(none), report);
+    return report.relative_approach;
+  };
+  const double expected = measured();
+  CHECK(expected > 0.5);
+  double square = 0;
+  for (std::size_t c = 0; c < problem.size(); ++c)
+    square += std::pow(double(problem.delassus.free_velocity(c)[0]), 2);
+  const auto rounding = T(std::sqrt(4 * square / double(problem.size())));
+  problem.rounding.assign(assembly.free.size(), 0);
+  problem.rounding[assembly.contacts.back().a] = rounding;
+  CHECK(measured() == expected);
+  problem.rounding.assign(assembly.free.size(), rounding);
+  CHECK(measured() == 0);
+}
+
 // The change per sweep falls below the tolerance long before the load has been transmitted to the
 // bottom of the column.
 TEST_CASE_TEMPLATE("sweeps go on while approach is left over", SolverT, NonlinearGaussSeidel,

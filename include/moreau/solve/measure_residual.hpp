@@ -158,14 +158,15 @@ struct ResidualSums {
     if (std::isinf(u[0]) && u[0] > 0) return;  // cannot act in this step
     const auto to_velocity = static_cast<typename Operator::Scalar>(scale);
     const Vector scaled = r * to_velocity;
-    const double left = std::min(0.0, double(u[0]));
+    const double left = u[0] >= 0 ? 0 : double(u[0]);  // NaN stays
     closing += left * left;
     // The map is a difference of impulses and velocities. If the load is as small as the rounding errors of
     // the velocity, as in a free fall, no impulse has a smaller one.
     constexpr double rounding =
         8 * double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-    map += std::max(0.0, natural_map2(problem.law(c), u, scaled, to_velocity) -
-                             rounding * rounding * double(u.squaredNorm()));
+    const double above = natural_map2(problem.law(c), u, scaled, to_velocity) -
+                         rounding * rounding * double(u.squaredNorm());
+    map += above <= 0 ? 0 : above;  // NaN stays
     norm += double(scaled.squaredNorm());
     constexpr int tangents = Vector::RowsAtCompileTime - 1;
     const double power = double(u.template tail<tangents>().dot(r.template tail<tangents>()));

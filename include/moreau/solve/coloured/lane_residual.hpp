@@ -98,7 +98,7 @@ class LaneResidual {
                     of_u = InDouble::of(velocity2), of_r = InDouble::of(norm),
                     of_power = InDouble::of(power),
                     cone2 = InDouble::of(squared(point.law.natural_map(still, scaled))),
-                    approach = InDouble::of(seen[0] < zero ? -seen[0] : zero),
+                    approach = InDouble::of(seen[0] >= zero ? zero : -seen[0]),
                     product = InDouble::of(Number::absolute(seen[0] * r[0]));
     constexpr double rounding = 8 * double(std::numeric_limits<typename InDouble::T>::epsilon());
     for (std::size_t k = 0; k < InDouble::count; ++k) {
@@ -129,9 +129,9 @@ class LaneResidual {
  private:
   using Register = typename InDouble::Doubles::Values;
   static void raise(Register& most, const Register& x) { most = x > most ? x : most; }
-  /// Adds what is positive.
+  /// Adds what is positive, or NaN.
   static void raise_sum(Register& sum, const Register& x) {
-    sum += x > Register{} ? x : Register{};
+    sum += x <= Register{} ? Register{} : x;
   }
   static void add_square(Registers& sum, const Values& x) {
     const Registers one = InDouble::of(x);
