@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "moreau/boundary/servo.hpp"
 #include "moreau/io/snapshot.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/rolling_resistance.hpp"
@@ -225,6 +226,23 @@ TEST_CASE_TEMPLATE("measures of a simulation count images", ShapeT, moreau::Ball
   CHECK_THROWS_AS(moreau::fabric(pile, h, twice), std::invalid_argument);
   CHECK_THROWS_AS(moreau::contact_stress(pile, 0, volume), std::invalid_argument);
   CHECK_THROWS_AS(moreau::pair_forces(pile, 0), std::invalid_argument);
+  // A step in ms would give forces that are a thousandth.
+  const auto ms = typename S::Scalar(1000 * h);
+  const char* const text = "step / last step = 1000 must be near 1";
+  CHECK_THROWS_WITH_AS((void)moreau::contact_stress(pile, ms, volume), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::pair_forces(pile, ms), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::fabric(pile, ms, volume), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::contact_classes(pile, ms), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::force_chains(pile, ms), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::contact_segments(pile, ms), doctest::Contains(text),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(moreau::wall_pressure(pile, pile.walls()[0], ms, 1), doctest::Contains(text),
+                       std::invalid_argument);
   CHECK_THROWS_AS(moreau::fabric(pile, h, Aabb<S>{}), std::invalid_argument);
 }
 

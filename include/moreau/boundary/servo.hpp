@@ -76,14 +76,16 @@ T checked_area(const auto& area, const char* function) {
 /// @param wall id of a half-space of the simulation
 /// @param step length of the last step [s], > 0
 /// @param area area of the wall [m^2], in the plane its length [m], > 0
-/// @throws std::invalid_argument if the step or the area is not finite or not positive, or if the
-///                               body is not a half-space of the simulation
+/// @throws std::invalid_argument if the step or the area is not finite or not positive, the step is a hundred times
+///                               longer or shorter than the last one, or the body is not a half-space of the simulation
 template <class Simulation>
 typename Simulation::Scalar wall_pressure(Simulation& simulation, BodyId wall,
                                           typename Simulation::Scalar step,
                                           typename Simulation::Scalar area) {
   require_positive(step, "wall_pressure", "step");
   require_positive(area, "wall_pressure", "area");
+  if constexpr (requires { simulation.require_unit_of_step(step, ""); })
+    simulation.require_unit_of_step(step, "wall_pressure");
   detail::require_half_space(simulation, wall, "wall_pressure");
   const typename Simulation::Vector impulse = simulation.contact_impulse(wall);
   return -detail::wall_normal(simulation, wall).dot(impulse) / (step * area);

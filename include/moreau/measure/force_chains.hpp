@@ -93,10 +93,13 @@ void contact_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step
 /// The segments of those contact points of a simulation that have a normal force > 0 in its last step.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
-/// @throws std::invalid_argument if the step is not finite or not positive
+/// @throws std::invalid_argument if the step is not finite or not positive, or a hundred times longer or shorter than
+///         the last one
 template <class Simulation>
 std::vector<ContactSegment<typename Simulation::S>> force_chains(const Simulation& simulation,
                                                                  typename Simulation::Scalar step) {
+  require_positive(step, "force_chains", "step");
+  detail::require_unit_of_step(simulation, step, "force_chains");
   std::vector<ContactSegment<typename Simulation::S>> segments;
   force_chains(simulation.contacts(), step, detail::position_in(simulation),
                detail::grain_in(simulation), segments, simulation.cell());
@@ -106,10 +109,13 @@ std::vector<ContactSegment<typename Simulation::S>> force_chains(const Simulatio
 /// The segments of all contact points of a simulation.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
-/// @throws std::invalid_argument if the step is not finite or not positive
+/// @throws std::invalid_argument if the step is not finite or not positive, or a hundred times longer or shorter than
+///         the last one
 template <class Simulation>
 std::vector<ContactSegment<typename Simulation::S>> contact_segments(
     const Simulation& simulation, typename Simulation::Scalar step) {
+  require_positive(step, "contact_segments", "step");
+  detail::require_unit_of_step(simulation, step, "contact_segments");
   std::vector<ContactSegment<typename Simulation::S>> segments;
   contact_segments(simulation.contacts(), step, detail::position_in(simulation),
                    detail::grain_in(simulation), segments, simulation.cell());

@@ -9,6 +9,7 @@
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 
 namespace moreau {
 
@@ -74,10 +75,12 @@ void pair_forces(const Contacts<S, Rows>& contacts, typename S::Scalar step,
 /// The pairs of a simulation that carry force in its last step.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
-/// @throws std::invalid_argument if the step is not positive
+/// @throws std::invalid_argument if the step is not positive, or a hundred times longer or shorter than the last one
 template <class Simulation>
 std::vector<PairForce<typename Simulation::S>> pair_forces(const Simulation& simulation,
                                                            typename Simulation::Scalar step) {
+  require_positive(step, "pair_forces", "step");
+  detail::require_unit_of_step(simulation, step, "pair_forces");
   std::vector<PairForce<typename Simulation::S>> pairs;
   pair_forces(simulation.contacts(), step, pairs);
   return pairs;

@@ -65,10 +65,13 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
 /// The same for the grains of a simulation and its last step, also in a periodic cell.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
+/// @throws std::invalid_argument also if the step is a hundred times longer or shorter than the last one
 template <class Simulation>
 Value<typename Simulation::S::Matrix> contact_stress(
     const Simulation& simulation, typename Simulation::Scalar step,
     const Aabb<typename Simulation::S>& control_volume) {
+  require_positive(step, "contact_stress", "step");
+  detail::require_unit_of_step(simulation, step, "contact_stress");
   return contact_stress(simulation.contacts(), step, control_volume,
                         detail::position_in(simulation), detail::grain_in(simulation),
                         simulation.cell());

@@ -312,7 +312,17 @@ class Simulation : public BodyControl<ShapeT> {
   ///         cases the step is half made: continue from a snapshot
   MOREAU_COMPILED_ONCE StepReport step(Scalar step);
 
-  double time() const { return time_; }              ///< sum of the steps [s]
+  double time() const { return time_; }  ///< sum of the steps [s]
+  /// Checks that a step by which impulses are divided is in the unit of the last step, not in ms: forces would be a
+  /// thousandth. Factors up to 100 pass, because a program may change its step. Any step passes before the first step()
+  /// and after a snapshot was read.
+  /// @param function name of the calling function, for the error message
+  /// @throws std::invalid_argument in the name of the function
+  void require_unit_of_step(Scalar step, const char* function) const {
+    require(!(last_step_ > 0) || (step <= 100 * last_step_ && last_step_ <= 100 * step), function,
+            "step / last step", step / last_step_,
+            "must be near 1: a step in seconds, as that of Simulation::step()");
+  }
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
   const Tolerances& tolerances() const { return tolerances_; }  ///< of detection
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
@@ -363,6 +373,7 @@ class Simulation : public BodyControl<ShapeT> {
                     contacts_, detector_, attempts_, cell_motion_);
   }
   void deserialized() {
+    reach_ = detail::reach_of<S>(materials_);
     const std::size_t laws = materials_.laws().size(), variants = variants_of<Law, S>();
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), laws, variants),
@@ -372,7 +383,6 @@ class Simulation : public BodyControl<ShapeT> {
               "must be of bodies that exist");
     require(dynamics_.is_valid(contacts_.size(), bodies().size()), "Simulation", "contacts",
             contacts_.size(), "must be as many as the laws have memories");
-    reach_ = detail::reach_of<S>(materials_);
     detector_.rebuild([&] { assembly_.add_to(detector_); });
   }
 
@@ -418,6 +428,8 @@ class Simulation : public BodyControl<ShapeT> {
   Scalar grain_size_;
   Tolerances tolerances_;
   Materials<Law> materials_;
+  Scalar reach_ = 0;
+  Scalar last_step_ = 0;
   Dynamics dynamics_;
   Vector gravity_ = Vector::Zero();
   double time_ = 0;
@@ -427,8 +439,6 @@ class Simulation : public BodyControl<ShapeT> {
   [[no_unique_address]] std::conditional_t<BridgingLaw<Law, S>, detail::Bridges<S, Law>,
                                            detail::NoBridges>
       bridges_;
-  Scalar reach_ = 0;
-  Scalar last_step_ = 0;
   detail::ChordVelocities<ShapeT> chords_;
   detail::MarginAttempts attempts_;
   CellMotion<S> cell_motion_;  // of a periodic cell that can deform

@@ -6,6 +6,14 @@
 
 namespace moreau::detail {
 
+/// Simulation::require_unit_of_step(), of a simulation that has it.
+template <class Simulation>
+void require_unit_of_step(const Simulation& simulation, typename Simulation::Scalar step,
+                          const char* function) {
+  if constexpr (requires { simulation.require_unit_of_step(step, function); })
+    simulation.require_unit_of_step(step, function);
+}
+
 /// Function: index of a body -> its centre of mass in world axes [m]. Refers to the simulation.
 template <class Simulation>
 auto position_in(const Simulation& simulation) {

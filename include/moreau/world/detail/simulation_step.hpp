@@ -68,6 +68,7 @@ StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step)
   }
   assembly_.require_finite("Simulation::step");
   report.step = double(step);
+  last_step_ = step;
   time_ += step;
   if constexpr (bonding) dynamics_.bonds().stamp(time_);
   const std::chrono::duration<double, std::milli> again(report.ms_collide - once);
@@ -154,8 +155,8 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_materials(
       detector_.set_cell(cell(), lengths(), "Simulation::set_materials");
     } catch (...) {
       materials_ = before;
-      throw;
       reach_ = reach_before;
+      throw;
     }
   }
   if constexpr (set_valued) dynamics_.keep_materials(before);
