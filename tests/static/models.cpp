@@ -87,7 +87,7 @@ static_assert(BondingLaw<Bonded<>, S> && RollingLaw<Bonded<>, S> && LaneLaw<Bond
 static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
 static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);
-static_assert(CoulombLaw<SignoriniCoulomb<>, S> && !CoulombLaw<Frictionless<>, S>);
+static_assert(CoulombLaw<SignoriniCoulomb<>, S> && CoulombLaw<Frictionless<>, S>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S> &&
               MapsLanes<SignoriniCoulomb<>, S>);
 static_assert(StaticFrictionLaw<SignoriniCoulomb<>, S> && !StaticFrictionLaw<Bonded<>, S>);

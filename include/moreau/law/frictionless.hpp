@@ -15,11 +15,13 @@
 
 namespace moreau {
 
-/// Signorini's condition with Newton's restitution for one pair of materials. Model of LaneLaw.
+/// Signorini's condition with Newton's restitution for one pair of materials. Model of CoulombLaw, with a coefficient of
+/// friction of 0, and of LaneLaw.
 template <std::floating_point T = double>
 class Frictionless {
  public:
   using ActsWhereGapsClose = Frictionless;  ///< see the concept of this name
+  static constexpr bool is_coulomb = true;  ///< see CoulombLaw
   /// @param restitution e in [0, 1] [-]: u_n' = -e u_n at an impact
   /// @throws std::invalid_argument for a restitution outside [0, 1]
   explicit Frictionless(T restitution = T(0)) : restitution_(restitution) {
@@ -28,6 +30,7 @@ class Frictionless {
   }
 
   T restitution() const { return restitution_; }  ///< e [-]
+  T friction() const { return T(0); }             ///< mu [-]
 
   /// Offset of u_n [m/s], see newton_restitution.hpp.
   /// @param gap    g [m], < 0 is penetration
