@@ -162,7 +162,10 @@ class ColouredGaussSeidel {
       islands.roll_back();
       report = sweep(problem, impulses, workspace);
       report.sweeps += before;
-      if (report.converged) return report;
+      if (report.converged) {
+        islands.write(report);
+        return report;
+      }
     }
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
