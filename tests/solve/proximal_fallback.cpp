@@ -7,8 +7,13 @@
 
 #include "moreau/instances/friction_problems.hpp"
 #include "moreau/law/cohesive.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
+#include "moreau/world/simulation.hpp"
 
 #include "conformance/solver.hpp"
+#include "types.hpp"
 
 using namespace solve_test;
 
@@ -60,6 +65,32 @@ TEST_CASE("what it cannot solve in time it leaves as swept, and says so") {
   CHECK(report.residual <= first.residual);
   CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(1e-8), 0), std::invalid_argument);
   CHECK_THROWS_AS(ProximalFallback<>(few_sweeps(-1)), std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("islands that are not solved are said", ShapeT,
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Law = SignoriniCoulomb<>;
+  using Vector = typename S::Vector;
+  using World = Simulation<ShapeT, Law, MoreauJean, CellGrid<S>, ProximalFallback<>>;
+  constexpr int up = S::dim - 1;
+  ColouredOptions options;
+  options.velocity_tolerance = 1e-16;  // beyond what any method reaches
+  World world(0.02, Materials<Law>(1, Law(0.5)), ProximalFallback<>(options));
+  world.add_wall(Vector::Unit(up), Vector::Zero());
+  const ShapeId cube = world.add_shape(cuboid<ShapeT>(Vector::Constant(0.01)));
+  for (int k = 0; k < 5; ++k)
+    world.add_grain(
+        cube, Pose<S>(Vector((0.02 * k + 0.01) * Vector::Unit(up) + 1e-4 * k * Vector::UnitX())),
+        2000);
+  world.set_gravity(-9.81 * Vector::Unit(up));
+  int unsolved = 0;
+  for (int k = 0; k < 20; ++k) {
+    const StepReport report = world.step(1e-3);
+    unsolved += report.solve.unsolved_islands > 0;
+    CHECK_FALSE((report.solve.converged && report.solve.unsolved_islands > 0));
+  }
+  CHECK(unsolved > 0);
 }
 
 TEST_CASE("large friction hides no approach, and numbers that end no failure") {
