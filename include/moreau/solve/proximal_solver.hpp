@@ -144,7 +144,8 @@ class ProximalSolver {
         if (round >= max_stalls && found.residual > progress * before) break;
         if (round % max_stalls == 0) before = found.residual;
         Eigen::VectorXd polished = r;
-        found.offer(polished, newton.improve(polished, tolerance, newton_iterations));
+        found.offer(polished, newton.improve(polished, tolerance, newton_iterations,
+                                             [&] { return is_late(); }));
         report.newton_steps = newton.steps();
         count += count / 2;
       }
@@ -168,8 +169,10 @@ class ProximalSolver {
     }
 
     bool over() const {
-      return best.residual <= options.tolerance || report.sweeps >= options.max_sweeps ||
-             std::chrono::duration<double>(Clock::now() - begin).count() > options.max_seconds;
+      return best.residual <= options.tolerance || report.sweeps >= options.max_sweeps || is_late();
+    }
+    bool is_late() const {
+      return std::chrono::duration<double>(Clock::now() - begin).count() > options.max_seconds;
     }
 
     using Clock = std::chrono::steady_clock;

@@ -85,7 +85,8 @@ class GroupKernel {
       if (cell_.moves()) cell_.skip(k);
       return;
     }
-    if (is_large_) prefetch_from(k + ahead);
+    // While groups are packed, another thread may be writing the bodies of later ones.
+    if (is_large_ && source_.problem == nullptr) prefetch_from(k + ahead);
     BodyLanes a = velocity_.gather(group.a), b = velocity_.gather(group.b);
     if (cell_.moves()) cell_.enter(k, b);
     for (std::uint32_t p = group.first; p < group.first + group.active; ++p)

@@ -36,12 +36,13 @@ class CoulombNewton {
   int steps() const { return steps_; }
 
   /// Makes at most `iterations` steps while they reduce F; r gets the best result.
+  /// @param is_late function: whether no further step shall begin
   /// @returns the residual of r
-  double improve(Eigen::VectorXd& r, double tolerance, int iterations) {
+  double improve(Eigen::VectorXd& r, double tolerance, int iterations, const auto& is_late) {
     double best = system_.residual(r);
     recent_.clear();
     Eigen::VectorXd x = r;
-    for (int k = 0; k < iterations && best > tolerance; ++k) {
+    for (int k = 0; k < iterations && best > tolerance && !is_late(); ++k) {
       if (!step(x)) break;
       const double residual = system_.residual(x);
       if (residual < best) {
