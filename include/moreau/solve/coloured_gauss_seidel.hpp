@@ -231,9 +231,11 @@ class ColouredGaussSeidel {
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
-    // In a closed row of rigid bonds impulses can go on changing that no motion follows from.
+    // In a closed row of rigid bonds impulses can go on changing that no motion follows from. The changes of others
+    // that attract are relative to the attraction, the residual is relative to their load.
     bool always = false;
-    if constexpr (BondingLaw<Law, typename Operator::Space>) always = !problem.bonds.pulls.empty();
+    if constexpr (AttractiveLaw<Law, typename Operator::Space>)
+      always = !problem.attraction.pulls.empty();
     while (!report.converged && report.sweeps < max_sweeps) {
       sweep_to_check(sweeps, max_sweeps, report);
       const double change = std::max(report.quad_dv, report.quad_dvr);
@@ -260,7 +262,12 @@ class ColouredGaussSeidel {
       } else if (accelerate && report.sweeps - saved_at >= most_stalled) {
         saved_at = report.sweeps;
         is_plain = !is_plain;
-        sweeps.restore(team_);
+        if (change < least) {  // slow, but better
+          least = change;
+          sweeps.save(team_);
+        } else {
+          sweeps.restore(team_);
+        }
         sweeps.accelerate(!is_plain);
       }
     }

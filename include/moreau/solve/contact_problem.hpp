@@ -23,18 +23,20 @@ namespace moreau {
 
 namespace detail {
 
-/// The bonds of a contact problem (law/bonded.hpp). The unknown p = r + h T of a bond is measured from its strength. A
-/// bond that bears nothing has p = h T, and its load r can be much smaller: errors are relative to r.
+/// The attraction in a contact problem (law/cohesive.hpp, law/bonded.hpp). The unknown p = r + h T of a contact that
+/// attracts with the force T is the push against it. Where the contact bears nothing p is h T, and its load r, which the
+/// bodies feel, can be much smaller: errors are relative to r.
 template <class T>
-struct ProblemBonds {
+struct ProblemAttraction {
   std::vector<T>
-      pulls;  ///< one per contact: h T of a bond, 0 of other contacts [N s]; empty if there is no bond
-  double velocity2 = 0;  ///< sum over the bonds of |u|^2 with r = 0 [m^2/s^2]
+      pulls;  ///< one per contact: h T, 0 of one that does not attract [N s]; empty if none does
+  /// Sum over the contacts that attract of u_n^2 with r = 0, of |u|^2 for a bond [m^2/s^2].
+  double velocity2 = 0;
   /// The same of the rounding of b: in a closed row of bonds no motion makes up for it [m^2/s^2].
   double rounding2 = 0;
 };
-/// Of a law without bonds.
-struct NoProblemBonds {};
+/// Of a law without attraction.
+struct NoProblemAttraction {};
 
 }  // namespace detail
 
@@ -56,10 +58,10 @@ struct ContactProblem {
   List<Scalar> rounding;
   /// Velocities that the loads of the step give the bodies, one per body, g h under gravity alone [m/s]; empty: not known.
   List<Scalar> load;
-  /// Those of the contacts that are bonds.
-  [[no_unique_address]] std::conditional_t<BondingLaw<Law, Space>, detail::ProblemBonds<Scalar>,
-                                           detail::NoProblemBonds>
-      bonds;
+  /// That of the contacts.
+  [[no_unique_address]] std::conditional_t<
+      AttractiveLaw<Law, Space>, detail::ProblemAttraction<Scalar>, detail::NoProblemAttraction>
+      attraction;
 
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.
@@ -68,14 +70,14 @@ struct ContactProblem {
 
 namespace detail {
 
-/// Sets the impulses to those of bodies that no contact moves: zero, and h T of bonds.
+/// Sets the impulses to those of bodies that no contact moves: zero, and h T where contacts attract.
 template <class Operator, class Law>
 void clear_impulses(const ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses) {
   std::fill(impulses.begin(), impulses.end(), Operator::Vector::Zero());
-  if constexpr (BondingLaw<Law, typename Operator::Space>)
-    for (std::size_t c = 0; c < problem.bonds.pulls.size(); ++c)
-      impulses[c][0] = problem.bonds.pulls[c];
+  if constexpr (AttractiveLaw<Law, typename Operator::Space>)
+    for (std::size_t c = 0; c < problem.attraction.pulls.size(); ++c)
+      impulses[c][0] = problem.attraction.pulls[c];
 }
 
 /// Leaves the operator with the velocities of these impulses alone. Velocities that are made of

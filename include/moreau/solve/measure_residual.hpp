@@ -115,16 +115,16 @@ struct ResidualSums {
     if (map <= least) map = 0;
     if (closing <= least) closing = 0;
   }
-  /// Makes the sums relative to the loads of bonds, not to their strength. Impulses as large as the strength have rounding
-  /// that no solution can go below: velocities of 32 epsilon times these impulses, and of the rounding of b, count as zero.
+  /// Makes the sums relative to the loads of contacts that attract, not to the attraction. Impulses as large as that have
+  /// rounding that no solution can go below: velocities of 32 epsilon times these impulses, and of the rounding of b, count as zero.
   /// @param scale makes velocities of impulses [1/kg]
   void relate_to_loads(const ContactProblem<Operator, Law>& problem,
                        std::span<const typename Operator::Vector> impulses,
-                       double scale) requires(BondingLaw<Law, typename Operator::Space>) {
-    const auto& pulls = problem.bonds.pulls;
+                       double scale) requires(AttractiveLaw<Law, typename Operator::Space>) {
+    const auto& pulls = problem.attraction.pulls;
     if (pulls.empty()) return;
     double pushes = 0;
-    norm = 0, approach = problem.bonds.velocity2;
+    norm = 0, approach = problem.attraction.velocity2;
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       typename Operator::Vector load = impulses[c];
       pushes += load.template cast<double>().squaredNorm();
@@ -137,7 +137,7 @@ struct ResidualSums {
     norm *= scale * scale;
     const double rounding =
         32 * scale * double(std::numeric_limits<typename Operator::Scalar>::epsilon());
-    const double least = rounding * rounding * pushes + problem.bonds.rounding2;
+    const double least = rounding * rounding * pushes + problem.attraction.rounding2;
     map -= least < map ? least : map;  // stays NaN
     closing -= least < closing ? least : closing;
     approach += least;
@@ -207,7 +207,7 @@ void measure_residual(const ContactProblem<Operator, Law>& problem,
   Sums sums = detail::sum_of<Sums>(team, problem.size(), [&](Sums& sum, std::size_t c) {
     sum.add(problem, c, impulses[c], scale);
   });
-  if constexpr (BondingLaw<Law, typename Operator::Space>)
+  if constexpr (AttractiveLaw<Law, typename Operator::Space>)
     sums.relate_to_loads(problem, impulses, scale);
   sums.forgive_rounding(problem);
   if (shared) sums.add_up(*shared);

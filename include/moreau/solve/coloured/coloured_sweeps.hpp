@@ -66,7 +66,7 @@ class ColouredSweeps {
     if constexpr (MapsLanes<Law, S>) {
       const double scale = mean_diagonal(problem.delassus, shared_);
       auto sums = kernel_.residual(scale, team);
-      if constexpr (BondingLaw<Law, S>) sums.relate_to_loads(problem, impulses, scale);
+      if constexpr (AttractiveLaw<Law, S>) sums.relate_to_loads(problem, impulses, scale);
       sums.forgive_rounding(problem);
       if (shared_) sums.add_up(*shared_);
       sums.write(report);

@@ -29,6 +29,7 @@
 #include "moreau/law/materials.hpp"
 #include "moreau/motion/mobility.hpp"
 #include "moreau/solve/concepts.hpp"
+#include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/step_context.hpp"
@@ -63,6 +64,18 @@ class Attraction {
       const Vector pull = -pulls_[c] * contact.frame.col(0);
       pull_body(roots[contact.b], contact.lever_b, pull, free[contact.b]);
       pull_body(roots[contact.a], contact.lever_a, -pull, free[contact.a]);
+    }
+  }
+  /// Tells the solver from which impulses those of the contacts are measured. Without bonds.
+  /// @param velocity_of function: contact -> its velocity if no contact bears anything [m/s]
+  void refer(const auto& velocity_of, ProblemAttraction<Scalar>& attraction) const {
+    attraction.pulls.clear();
+    attraction.velocity2 = attraction.rounding2 = 0;
+    for (std::size_t c = 0; c < pulls_.size(); ++c) {
+      if (pulls_[c] == 0) continue;
+      if (attraction.pulls.empty()) attraction.pulls.assign(pulls_.begin(), pulls_.end());
+      const double normal = double(velocity_of(c)[0]);
+      attraction.velocity2 += normal * normal;
     }
   }
   void clear() { pulls_.clear(); }  ///< no contact attracts in this step

@@ -221,17 +221,17 @@ class BondList {
   /// @param pulls       impulses of the attraction [N s]
   /// @param velocity_of function: contact -> its velocity if no bond bears anything [m/s]
   void refer(const Operator& op, std::span<const Scalar> pulls, Scalar step,
-             const auto& velocity_of, ProblemBonds<Scalar>& bonds) const {
-    bonds.pulls.clear();
-    bonds.velocity2 = bonds.rounding2 = 0;
+             const auto& velocity_of, ProblemAttraction<Scalar>& attraction) const {
+    attraction.pulls.clear();
+    attraction.velocity2 = attraction.rounding2 = 0;
     if (bonds_.empty()) return;
-    bonds.pulls.assign(pulls.begin(), pulls.end());
+    attraction.pulls.assign(pulls.begin(), pulls.end());
     for_each([&](std::size_t i, std::size_t c) {
-      bonds.velocity2 += double(Row(velocity_of(c) + drifts_[i]).squaredNorm());
+      attraction.velocity2 += double(Row(velocity_of(c) + drifts_[i]).squaredNorm());
       if constexpr (!is_compliant) {
         const double stretch = double(rate / step * places_[i].measured),
                      turn = double(rate / step * rounding_of_turn * op.radius(c));
-        bonds.rounding2 += stretch * stretch + turn * turn;
+        attraction.rounding2 += stretch * stretch + turn * turn;
       }
     });
   }

@@ -330,13 +330,14 @@ class ImpulseDynamics {
   /// Solves the contact problem, with the equation of a cell that moves by its stress.
   void solve_problem(const Context& context, StepReport& report) {
     if (cell_.moves(context)) cell_.join(context, attraction_.pulls(), problem_.delassus);
+    const auto unloaded = [&](std::size_t c) {
+      return velocities_.unloaded(context, c, cell_.jumps(), problem_.delassus);
+    };
     if constexpr (bonding)
-      bonds_.refer(
-          problem_.delassus, attraction_.pulls(), context.step,
-          [&](std::size_t c) {
-            return velocities_.unloaded(context, c, cell_.jumps(), problem_.delassus);
-          },
-          problem_.bonds);
+      bonds_.refer(problem_.delassus, attraction_.pulls(), context.step, unloaded,
+                   problem_.attraction);
+    else if constexpr (AttractiveLaw<Law, S>)
+      attraction_.refer(unloaded, problem_.attraction);
     report.solve = solver_.solve(problem_, pushes_.rows(), workspace_);
   }
 

@@ -355,7 +355,7 @@ class RestitutionLimit {
       island.hits = island.hits || bounce.hits;
       if constexpr (BondingLaw<Law, S>)
         island.bonded =
-            island.bonded || (!problem.bonds.pulls.empty() && problem.bonds.pulls[c] != 0);
+            island.bonded || (!problem.attraction.pulls.empty() && problem.attraction.pulls[c] != 0);
       island.gain += bounce.gain;
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +

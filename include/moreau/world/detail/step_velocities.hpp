@@ -106,7 +106,7 @@ struct StepVelocities {
     const Twist turn = (free[b] - before[b]) - (free[a] - before[a]);
     return op.row(c, change, angular<S>(turn));
   }
-  /// The relative velocity of the contact of a bond if no bond bears anything, without its offset, a row of the operator
+  /// The relative velocity of a contact if none that attracts bears anything, without its offset, a row of the operator
   /// [m/s].
   /// @param jumps of the cell, if it deforms
   Row unloaded(const Context& context, std::size_t c, const CellJumps<S>& jumps,

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Grains that hang from a ceiling in a row, held by an attraction far above their weight: the errors of a step are
+// relative to the weight that the contacts bear, not to the attraction.
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <type_traits>
+#include <vector>
+
+#include "moreau/law/bridges.hpp"
+#include "moreau/law/cohesive.hpp"
+#include "moreau/law/rolling_resistance.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+using namespace moreau;
+
+namespace {
+
+constexpr double size = 0.02, gravity = 9.81, h = 1e-3;
+
+/// What the last grain of the row did.
+struct Fall {
+  double fastest = 0;  ///< largest speed in the second half of the time, relative to g h [-]
+  double sunk = 0;     ///< how far it is from its place at the end, relative to the size [-]
+  int unsolved = 0;    ///< steps
+};
+
+/// @param law_of function: weight of a grain [N] -> law
+template <class ShapeT>
+Fall hang(const auto& law_of, int grains, int steps) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  const ShapeT shape(T(size / 2));
+  constexpr T density = 2700;
+  const double weight = double(shape.volume()) * density * gravity;
+  const auto law = law_of(weight);
+  Simulation<ShapeT, std::decay_t<decltype(law)>> world(T(size), law);
+  const Vector up = Vector::Unit(S::dim - 1);
+  const ShapeId id = world.add_shape(shape);
+  std::vector<BodyId> row;
+  Pose<S> place;
+  for (int k = 0; k < grains; ++k) {
+    place.position = -T(size) * (T(k) + T(0.5)) * up;
+    row.push_back(world.add_grain(id, place, density));
+  }
+  world.add_wall(-up, Vector::Zero());
+  world.set_gravity(-T(gravity) * up);
+  Fall fall;
+  for (int i = 0; i < steps; ++i) {
+    fall.unsolved += !world.step(T(h)).solve.converged;
+    const double speed = double(world.velocity(row.back()).norm());
+    if (2 * i >= steps) fall.fastest = std::max(fall.fastest, speed / (gravity * h));
+  }
+  fall.sunk = (-size * (grains - 0.5) - double(world.pose(row.back()).position[S::dim - 1])) / size;
+  return fall;
+}
+
+template <class ShapeT>
+void check(const auto& law_of, int grains, double speed) {
+  const Fall fall = hang<ShapeT>(law_of, grains, 300);
+  CAPTURE(fall.fastest);
+  CAPTURE(fall.sunk);
+  CHECK(fall.unsolved == 0);
+  CHECK(fall.fastest < speed);
+  CHECK(std::abs(fall.sunk) < 1e-3);
+}
+
+}  // namespace
+
+TEST_CASE("a row of balls hangs by an adhesion of up to a million times their weight") {
+  using Law = Cohesive<SignoriniCoulomb<>>;
+  for (const double bond : {1e2, 1e4, 1e6}) {
+    CAPTURE(bond);
+    check<Ball<double>>([&](double weight) { return Law(SignoriniCoulomb<>(0.4), bond * weight); },
+                        20, 0.2);
+  }
+}
+
+TEST_CASE("a row of disks with resistance to rolling hangs in single precision") {
+  using Law = Cohesive<RollingResistance<float>>;
+  for (const double bond : {1e2, 1e3}) {
+    CAPTURE(bond);
+    check<Disk<float>>(
+        [&](double weight) {
+          return Law(RollingResistance<float>(0.4f, 0.1f), float(bond * weight));
+        },
+        10, 0.2);
+  }
+}
+
+TEST_CASE("a row of balls hangs by bridges") {
+  using Law = Bridged<LinearCohesion<>, SignoriniCoulomb<>>;
+  for (const double bond : {1e2, 1e4}) {
+    CAPTURE(bond);
+    check<Ball<double>>(
+        [&](double weight) {
+          return Law(LinearCohesion<>(bond * weight, 1e-4), SignoriniCoulomb<>(0.4));
+        },
+        20, 0.2);
+  }
+}
