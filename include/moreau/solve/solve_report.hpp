@@ -17,8 +17,9 @@ struct SolveReport {
 
   /// Natural-map residual || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the
   /// mean of diag W is 1 [-]. Absolute if r = 0 [m/s]. The squared rounding errors of the velocities,
-  /// (8 epsilon)^2 |u|^2, are subtracted from the squared numerator: no impulses have a smaller one. Of bonds the
-  /// denominator has r, not the push p = r + h T against their strength; the rounding of p, 32 epsilon |p|, is subtracted, too.
+  /// (8 epsilon)^2 |u|^2, are subtracted from the squared numerator: no impulses have a smaller one. Of contacts
+  /// that attract the denominator has r, which the bodies feel, not the push p = r + h T against the attraction or
+  /// the strength of a bond; the rounding of p, 32 epsilon |p|, is subtracted, too.
   double residual = 0;
   /// max(natural-map residual, remaining approach velocity) / approach velocity without impulses.
   /// All three are root mean squares over the contacts [-]; 0 if nothing approaches.
