@@ -131,7 +131,8 @@ void attractions(const Bodies<S>& bodies, const Materials<Law>& materials,
         return Law::is_bridged(contacts.variants[c]) && contacts.points[c].gap <= law.reach();
       };
       std::size_t count = 0;
-      for (std::size_t c = first; c < last; ++c) if (attracts(c)) ++count;
+      for (std::size_t c = first; c < last; ++c)
+        if (attracts(c)) ++count;
       for (std::size_t c = first; c < last; ++c) {
         if (!attracts(c)) continue;
         const Contact<S>& contact = contacts.points[c];
