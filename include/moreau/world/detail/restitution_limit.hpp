@@ -354,8 +354,8 @@ class RestitutionLimit {
       const Row change = bounce.impulse - rest.impulse;
       island.hits = island.hits || bounce.hits;
       if constexpr (BondingLaw<Law, S>)
-        island.bonded =
-            island.bonded || (!problem.attraction.pulls.empty() && problem.attraction.pulls[c] != 0);
+        island.bonded = island.bonded ||
+                        (!problem.attraction.pulls.empty() && problem.attraction.pulls[c] != 0);
       island.gain += bounce.gain;
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +
