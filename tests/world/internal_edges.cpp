@@ -320,3 +320,32 @@ TEST_CASE_TEMPLATE("steps, side walls and ramps stay", ShapeT, Polygon<>, Polyhe
   CHECK(world.pose(grain).position[0] == doctest::Approx(1e-4).epsilon(0.1));
   CHECK(world.pose(grain).position[up] == doctest::Approx(-0.015).epsilon(1e-3));
 }
+
+TEST_CASE_TEMPLATE("a plank on many flush blocks costs as many times more as there are blocks",
+                   ShapeT, Polygon<>, Polyhedron<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  using Law = SignoriniCoulomb<>;
+  constexpr int up = S::dim - 1;
+  const auto milliseconds = [](int blocks) {
+    ColouredOptions options;
+    options.max_sweeps = 1;
+    scenes::World<ShapeT> world(0.02, Materials<Law>(1, Law(0.3)), ColouredGaussSeidel(options));
+    const ShapeId block = world.add_shape(box<ShapeT>(0.02, 0.02));
+    for (int k = 0; k < blocks; ++k)
+      world.prescribe_motion(world.add_grain(
+          block, {0.02 * k * Vector::UnitX() - 0.01 * Vector::Unit(up), S::identity()}, 1000));
+    const double length = 0.02 * blocks;
+    world.add_grain(
+        world.add_shape(box<ShapeT>(length, 0.02, 0.02)),
+        {(length - 0.02) / 2 * Vector::UnitX() + 0.01 * Vector::Unit(up), S::identity()}, 1000);
+    double least = 1e9;
+    for (int k = 0; k < 3; ++k) least = std::min(least, world.step(1e-4).ms_detect);
+    CHECK(world.contacts().size() >= 2 * std::size_t(blocks));
+    return least;
+  };
+  const double some = milliseconds(1000), all = milliseconds(8000);
+  CAPTURE(some);
+  CAPTURE(all);
+  CHECK(all < 32 * some);  // 64 times if every block is compared with every other one
+}

@@ -230,36 +230,41 @@ class InternalEdges {
     return found == ContactClass::vertex_vertex || found == ContactClass::vertex_edge ||
            found == ContactClass::edge_edge;
   }
-  /// The heights of a contact if the surface of another one separates X from the other body, or nothing.
-  [[gnu::cold, gnu::noinline]] static std::optional<Heights> separated(
-      const View& view, const Surface& surface, Scalar flush, const auto& reach,
-      const DetectedContacts<S>& contacts) {
+  /// Whether a surface separates X from the other body, for the heights along its normal.
+  static bool separates(const Heights& found, const Surface& surface, Scalar flush) {
+    return found.other <= surface.height + flush &&
+           found.x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
+  }
+  /// Whether the surface of another contact separates X from the other body of this one.
+  [[gnu::cold, gnu::noinline]] static bool is_separated(const View& view, const Surface& surface,
+                                                        Scalar flush, const auto& reach,
+                                                        const DetectedContacts<S>& contacts) {
     const std::optional<Heights> found = heights(view, surface.normal, reach, contacts);
-    const bool is_separated = found && found->other <= surface.height + flush &&
-                              found->x >= surface.height + std::min(surface.gap, Scalar(0)) - flush;
-    return is_separated ? found : std::nullopt;
+    return found && separates(*found, surface, flush);
   }
   /// The contact to replace if another one's surface separates X from the other body, or nothing.
-  /// @param t         index of the view, from begin to end
+  /// @param t         index of the view, counted from `begin`
+  /// @param begin     the first view of the group
   /// @param kept_only whether surfaces of contacts that are replaced themselves do not count
   [[gnu::cold, gnu::noinline]] std::optional<Found> separating(
-      std::size_t t, std::size_t begin, std::size_t end, bool kept_only, Scalar flush,
-      const auto& reach, const DetectedContacts<S>& contacts) const {
-    const View& view = views_[t];
-    const Vector normal = outward(view, contacts);
+      std::size_t t, std::size_t begin, bool kept_only, Scalar flush, const auto& reach,
+      const DetectedContacts<S>& contacts) const {
+    const View& view = views_[begin + t];
     std::optional<Found> best;
-    for (std::size_t s = begin; s < end; ++s) {
-      if (s == t || (kept_only && is_replaced_[s - begin]) ||
-          reach.are_of_one_mesh(views_[s], view))
-        continue;
-      const Scalar cosine = normal.dot(outward(views_[s], contacts));
-      if (!is_candidate(view, cosine, contacts)) continue;
-      const Surface surface = surface_of(views_[s], contacts);
-      const std::optional<Heights> found = separated(view, surface, flush, reach, contacts);
-      if (!found || separated(views_[s], surface_of(view, contacts), flush, reach, contacts))
+    std::optional<Heights> found;  // along the normal of contact `along`
+    std::size_t along = t;
+    for (std::size_t s = 0; s < normals_.size(); ++s) {
+      if (!is_candidate(view, normals_[t].dot(normals_[s]), contacts)) continue;
+      const View& other = views_[begin + s];
+      if (s == t || (kept_only && is_replaced_[s]) || reach.are_of_one_mesh(other, view)) continue;
+      if (along == t || normals_[s] != normals_[along])
+        found = heights(view, normals_[s], reach, contacts);
+      along = s;
+      if (!found || !separates(*found, surface_of(other, contacts), flush) ||
+          is_separated(other, surface_of(view, contacts), flush, reach, contacts))
         continue;
       const Scalar separation = found->x - found->other;
-      if (!best || separation > best->separation) best = {view, surface.normal, separation};
+      if (!best || separation > best->separation) best = {view, normals_[s], separation};
     }
     return best;
   }
@@ -269,17 +274,25 @@ class InternalEdges {
   [[gnu::cold, gnu::noinline]] void compare(std::size_t begin, std::size_t end, Scalar flush,
                                             const auto& reach,
                                             const DetectedContacts<S>& contacts) {
+    // X can lie on thousands of flush obstacles, or of facets of one mesh: most have nothing to compare.
+    bool differs = false, is_one_mesh = reach.are_of_one_mesh(views_[begin], views_[begin]);
+    normals_.clear();
+    for (std::size_t t = begin; t < end; ++t) {
+      normals_.push_back(outward(views_[t], contacts));
+      differs = differs || normals_.back() != normals_[0];
+      is_one_mesh = is_one_mesh && reach.other(views_[t]) == reach.other(views_[begin]);
+    }
+    if (!differs || is_one_mesh) return;
     is_replaced_.assign(end - begin, 0);
     const auto find = [&](std::size_t t, bool kept_only) {
-      return separating(t, begin, end, kept_only, flush, reach, contacts);
+      return separating(t, begin, kept_only, flush, reach, contacts);
     };
-    for (std::size_t t = begin; t < end; ++t) found_of_.push_back(find(t, false));
-    for (std::size_t t = begin; t < end; ++t)
-      is_replaced_[t - begin] = found_of_[t - begin].has_value();
-    for (std::size_t t = begin; t < end; ++t) {
-      if (!is_replaced_[t - begin]) continue;
+    for (std::size_t t = 0; t < end - begin; ++t) found_of_.push_back(find(t, false));
+    for (std::size_t t = 0; t < end - begin; ++t) is_replaced_[t] = found_of_[t].has_value();
+    for (std::size_t t = 0; t < end - begin; ++t) {
+      if (!is_replaced_[t]) continue;
       const std::optional<Found> kept = find(t, true);
-      found_.push_back(kept ? *kept : *found_of_[t - begin]);
+      found_.push_back(kept ? *kept : *found_of_[t]);
     }
     found_of_.clear();
   }
@@ -303,8 +316,10 @@ class InternalEdges {
 
   List<View> views_;
   List<Found> found_;
-  List<std::optional<Found>> found_of_;  // one per view of the group that is compared
-  List<unsigned char> is_replaced_;      // the same
+  // Of the group that is compared:
+  List<std::optional<Found>> found_of_;  // one per view
+  List<unsigned char> is_replaced_;      // one per view
+  List<Vector> normals_;                 // one per view, outward
   List<unsigned char> gone_;             // one per contact
 };
 
