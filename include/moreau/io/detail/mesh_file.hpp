@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -34,19 +35,20 @@ struct MeshFile {
   bool has_numbered_vertices = true;  ///< false for STL, which repeats the corners
 
   void add_triangle(const Triangle& corners) {
-    if (groups.empty()) groups.emplace_back();
+    if (groups.empty()) begin_group({});
     triangles.push_back(corners);
     group_of.push_back(current_group);
   }
   /// Later triangles belong to this group; a name that comes again is the same group.
   void begin_group(std::string_view name) {
-    const auto at = std::find(groups.begin(), groups.end(), name);
-    current_group = static_cast<std::uint32_t>(at - groups.begin());
-    if (at == groups.end()) groups.emplace_back(name);
+    const auto next = static_cast<std::uint32_t>(groups.size());
+    current_group = number_of_group.try_emplace(std::string(name), next).first->second;
+    if (current_group == next) groups.emplace_back(name);
   }
   void add_polygon(std::span<const std::uint32_t> corners);
 
   std::uint32_t current_group = 0;
+  std::map<std::string, std::uint32_t> number_of_group;
 };
 
 /// Divides a plane polygon into triangles: cuts off corners that turn to the left and contain no
