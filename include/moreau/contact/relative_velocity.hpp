@@ -3,7 +3,8 @@
 //
 //     v_b + w_b x l_b - v_a - w_a x l_a,
 //
-// with the levers l from the centres of the bodies to the point. All stages of a step compute it here. The operator of a
+// with the levers l from the centres of the bodies to the point. All stages of a step compute it here, but for
+// the direct method for islands, which has rows of J (solve/detail/jacobian_rows.hpp). The operator of a
 // contact problem adds the relative spin of contacts with couples, and turns both into its rows (BodyDelassus::row()).
 #pragma once
 
