@@ -10,13 +10,16 @@
 namespace {
 
 std::atomic<long> allocations{0};
+std::atomic<std::size_t> bytes_asked_for{0};  // of all calls
 
 void* counted(std::size_t size) noexcept {
   ++allocations;
+  bytes_asked_for += size;
   return std::malloc(size);
 }
 void* counted(std::size_t size, std::align_val_t alignment) noexcept {
   ++allocations;
+  bytes_asked_for += size;
   const auto a = static_cast<std::size_t>(alignment);
   return std::aligned_alloc(a, (size + a - 1) / a * a);
 }

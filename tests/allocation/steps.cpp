@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Checks that a step allocates no memory after the first steps. Calls of operator new are counted.
 // Eigen calls malloc directly; its runtime check asserts that it does not.
+#include <cstddef>
+#include <cstdint>
 #include <doctest/doctest.h>
 #include <new>
 
@@ -107,4 +109,28 @@ TEST_CASE_TEMPLATE("nor does one in which grains are removed and added", ShapeT,
   for (int k = 0; k < rounds(5); ++k) cycle();
   Eigen::internal::set_is_malloc_allowed(true);
   CHECK(allocations == before);
+}
+
+TEST_CASE_TEMPLATE("a mesh wall needs few bytes for a grain that is not near it", ShapeT,
+                   moreau::Ball<>, moreau::Disk<>) {
+  using S = moreau::SpaceOf<ShapeT>;
+  using Law = scenes::LawOf<ShapeT>;
+  constexpr std::size_t grains = 2000, meshes = 10;
+  moreau::FacetMesh<S> mesh;  // one facet
+  for (int k = 0; k < S::dim; ++k) mesh.vertices.push_back(0.1 * S::Vector::Unit(k));
+  auto& facet = mesh.facets.emplace_back();
+  for (std::size_t k = 0; k < facet.size(); ++k) facet[k] = std::uint32_t(k);
+  const auto bytes = [&](bool has_meshes) {
+    scenes::World<ShapeT> world(0.02, moreau::Materials<Law>(1, Law(0.4)));
+    const auto shape = world.add_shape(ShapeT(0.01));
+    for (std::size_t k = 0; k < grains; ++k)
+      world.add_grain(
+          shape, moreau::Pose<S>(typename S::Vector((1 + 0.1 * double(k)) * S::Vector::Unit(0))),
+          2700);
+    for (std::size_t k = 0; has_meshes && k < meshes; ++k) world.add_mesh_wall(mesh);
+    const std::size_t before = bytes_asked_for;
+    for (int k = 0; k < 3; ++k) world.step(1e-4);
+    return bytes_asked_for - before;
+  };
+  CHECK(double(bytes(true) - bytes(false)) < 12. * grains * meshes);
 }

@@ -75,8 +75,6 @@ class MeshNeighbours {
     box_ = box.inflated(skin * (box.upper - box.lower).maxCoeff());
     detail::find_facets(wall, box_, facets_);
   }
-  /// Forgets the facets, of a grain that has left the wall, and frees their memory.
-  void clear() { *this = {}; }
   /// At least the facets whose boxes overlap the box, face after face.
   std::span<const NearFacet> facets() const { return facets_; }
 

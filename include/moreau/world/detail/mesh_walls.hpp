@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,6 +44,37 @@ struct GrainInWorld {
   const ShapeT& shape;
   const Placed<ShapeT>& placed;
   const Aabb<SpaceOf<ShapeT>>& box;  ///< world axes [m]
+};
+
+/// The facets of a mesh near each body. Memory is held of bodies near the mesh alone, but for 8 bytes.
+template <class S>
+class NearFacetsOfBodies {
+ public:
+  void resize(std::size_t bodies) { of_.resize(bodies); }
+  /// The list of a body, which one thread uses at a time.
+  MeshNeighbours<S>& of(std::size_t body) {
+    if (!of_[body].list) of_[body].list = std::make_unique<MeshNeighbours<S>>();
+    return *of_[body].list;
+  }
+  /// The facets of a body as it was found last; none of one that has left.
+  std::span<const NearFacet> facets(std::size_t body) const {
+    return of_[body].list ? of_[body].list->facets() : std::span<const NearFacet>();
+  }
+  void leave(std::size_t body) { of_[body].list.reset(); }  ///< frees the memory of the body
+
+ private:
+  struct Of {
+    std::unique_ptr<MeshNeighbours<S>> list;
+
+    Of() = default;
+    Of(Of&&) noexcept = default;
+    Of& operator=(Of&&) noexcept = default;
+    Of(const Of& other)
+        : list(other.list ? std::make_unique<MeshNeighbours<S>>(*other.list) : nullptr) {}
+    Of& operator=(const Of& other) { return *this = Of(other); }
+    ~Of() = default;
+  };
+  std::vector<Of> of_;
 };
 
 /// The mesh walls of a ContactDetector. A program that adds none does not compile their collisions.
@@ -106,8 +138,8 @@ class MeshWalls {
     BodyId body;
     MeshWall<S> shape;
     PlacedFrame placed;
-    Aabb<S> box;                          // world axes [m]
-    std::vector<MeshNeighbours<S>> near;  // of every body, used by one thread at a time
+    Aabb<S> box;  // world axes [m]
+    NearFacetsOfBodies<S> near;
 
     // As reach() of MeshWalls, along a unit vector in the frame of the wall.
     [[gnu::cold, gnu::noinline]] Scalar reach(std::uint32_t grain, FeatureKey feature,
@@ -118,7 +150,7 @@ class MeshWalls {
         most = std::max(most, Scalar(direction.dot(shape.vertex(v))));
       };
       if (feature.kind() == vertex_on_face(S{})) {
-        for (const NearFacet& facet : near[grain].facets())
+        for (const NearFacet& facet : near.facets(grain))
           if (facet.face == feature.b())
             for (const std::uint32_t v : shape.facet(facet.place)) add(v);
       } else if (feature.kind() == Kind::edge_edge || feature.kind() == Kind::vertex_edge) {
@@ -142,7 +174,7 @@ class MeshWalls {
     const std::size_t body = grain.body.index();
     for (Wall& wall : self.walls_) {
       if (!wall.box.overlaps(grain.box.inflated(reach.margin))) {
-        if (!wall.near[body].facets().empty()) wall.near[body].clear();
+        wall.near.leave(body);
         continue;
       }
       if (bodies.is_prescribed(body) && bodies.is_prescribed(wall.body.index())) continue;
@@ -188,7 +220,7 @@ class MeshWalls {
       buffers.local->update(grain.shape, local);
     else
       buffers.local.emplace(grain.shape, local);
-    MeshNeighbours<S>& near = wall.near[grain.body.index()];
+    MeshNeighbours<S>& near = wall.near.of(grain.body.index());
     near.update(wall.shape, buffers.local->bounding_box().inflated(reach.margin));
     Manifold<S>& manifold = found.manifold();
     found.add(grain, wall, previous, [&](const auto& add) {
