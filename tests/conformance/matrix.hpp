@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests one shape, or a mixture of shapes, under every law of the library. Each law is combined
-// with the integrators, broad phases and solvers that are allowed for it.
+// with the integrators, broad phases and solvers that are allowed for it. Most of what takes long to compile
+// depends on the space and the law alone: test all shapes of one space in one file (tests/matrix).
 #pragma once
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/law/tangential_restitution.hpp"
 #include "moreau/motion/moreau_jean.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
@@ -40,14 +42,25 @@ struct Implicit : moreau::MoreauJean {
   Implicit() : MoreauJean(1) {}
 };
 
+/// The mass of the lightest shape [kg].
+template <class ShapeT>
+typename moreau::SpaceOf<ShapeT>::Scalar lightest(const std::vector<ShapeT>& shapes) {
+  using T = typename moreau::SpaceOf<ShapeT>::Scalar;
+  T mass = std::numeric_limits<T>::infinity();
+  for (const ShapeT& shape : shapes) mass = std::min(mass, shape.mass_properties(T(1000)).mass);
+  return mass;
+}
+
+/// Laws without attraction, with the integrators, broad phases and solvers that are allowed for them.
 /// @param shapes shapes with a size of about one centimetre
 /// @param size   diameter of a ball that contains any of the shapes [m]
 template <class ShapeT>
-void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+void laws_of_pushes(const std::vector<ShapeT>& shapes,
+                    typename moreau::SpaceOf<ShapeT>::Scalar size) {
   using T = typename moreau::SpaceOf<ShapeT>::Scalar;
   const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
-  T mass = std::numeric_limits<T>::infinity();  // mass of the lightest shape
-  for (const ShapeT& shape : shapes) mass = std::min(mass, shape.mass_properties(T(1000)).mass);
+  const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
+  const T mass = lightest(shapes);
   SUBCASE("SignoriniCoulomb") {
     world(shapes, coulomb, size);
   }
@@ -64,6 +77,36 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
   SUBCASE("Frictionless") {
     world(shapes, moreau::Frictionless<T>(), size);
   }
+  SUBCASE("TangentialRestitution") {
+    world(shapes, moreau::TangentialRestitution<T>(T(0.3), T(0.8), T(0.4)), size);
+  }
+  SUBCASE("Compliant") {
+    world(shapes, moreau::Compliant<moreau::SignoriniCoulomb<T>>(coulomb, T(1e9) * mass), size);
+  }
+  SUBCASE("RollingResistance") {
+    world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
+  }
+  SUBCASE("Compliant RollingResistance") {
+    world(shapes, moreau::Compliant<moreau::RollingResistance<T>>(rolling, T(1e9) * mass), size);
+  }
+  SUBCASE("LinearSpringDashpot") {
+    world(shapes, conformance::stiff_springs<T>(mass), size);
+  }
+  SUBCASE("HertzMindlin") {
+    world(shapes, conformance::stiff_spheres<T>(mass), size);
+  }
+}
+
+/// The same for laws that attract: cohesion, bridges and bonds.
+template <class ShapeT>
+void laws_of_attraction(const std::vector<ShapeT>& shapes,
+                        typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using T = typename moreau::SpaceOf<ShapeT>::Scalar;
+  using Water = moreau::CapillaryBridge<T>;
+  using Linear = moreau::LinearCohesion<T>;
+  const moreau::SignoriniCoulomb<T> coulomb(T(0.4));
+  const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
+  const T mass = lightest(shapes);
   SUBCASE("Cohesive") {
     world(shapes, moreau::Cohesive<moreau::SignoriniCoulomb<T>>(coulomb, T(1e-3)), size);
   }
@@ -75,13 +118,22 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
     world(shapes, moreau::Cohesive<moreau::Frictionless<T>>(moreau::Frictionless<T>(), T(1e-3)),
           size);
   }
-  SUBCASE("Compliant") {
-    world(shapes, moreau::Compliant<moreau::SignoriniCoulomb<T>>(coulomb, T(1e9) * mass), size);
+  SUBCASE("Cohesive with rolling resistance") {
+    world(shapes, moreau::Cohesive<moreau::RollingResistance<T>>(rolling, T(1e-3)), size);
+  }
+  SUBCASE("Cohesive holds grains together") {
+    using Law = moreau::Cohesive<moreau::SignoriniCoulomb<T>>;
+    hang(
+        shapes, [&](T attraction) { return Law(coulomb, attraction); }, size);
   }
   SUBCASE("Bridged") {
-    using Water = moreau::CapillaryBridge<T>;
     world(shapes, moreau::Bridged<Water, moreau::SignoriniCoulomb<T>>(Water(T(1e-12)), coulomb),
           size);
+  }
+  SUBCASE("Compliant Bridged") {
+    using Wet = moreau::Bridged<Linear, moreau::RollingResistance<T>>;
+    const Wet wet(Linear(T(1e-4), T(1e-4)), rolling);
+    world(shapes, moreau::Compliant<Wet>(wet, T(1e9) * mass), size);
   }
   SUBCASE("Bonded") {
     const auto law_of = [](T strength) {
@@ -90,18 +142,12 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
     world(shapes, law_of(T(1)), size);
     bonded(shapes, law_of, size);
   }
-  SUBCASE("RollingResistance") {
-    world(shapes, moreau::RollingResistance<T>(T(0.4), T(0.1)), size);
-  }
-  SUBCASE("Compliant RollingResistance") {
-    const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
-    world(shapes, moreau::Compliant<moreau::RollingResistance<T>>(rolling, T(1e9) * mass), size);
-  }
-  SUBCASE("Compliant Bridged") {
-    using Wet = moreau::Bridged<moreau::LinearCohesion<T>, moreau::RollingResistance<T>>;
-    const Wet wet(moreau::LinearCohesion<T>(T(1e-4), T(1e-4)),
-                  moreau::RollingResistance<T>(T(0.4), T(0.1)));
-    world(shapes, moreau::Compliant<Wet>(wet, T(1e9) * mass), size);
+  SUBCASE("Bonded with a fracture energy") {
+    const auto law_of = [](T strength) {
+      return moreau::Bonded<T>({strength, strength, strength, T(1e-9)}, T(0.4), T(0.1));
+    };
+    world(shapes, law_of(T(1)), size);
+    bonded(shapes, law_of, size);
   }
   SUBCASE("Compliant Bonded") {
     const auto law_of = [mass](T strength) {
@@ -111,21 +157,13 @@ void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT
     world(shapes, law_of(T(1)), size);
     bonded(shapes, law_of, size);
   }
-  SUBCASE("Cohesive with rolling resistance") {
-    const moreau::RollingResistance<T> rolling(T(0.4), T(0.1));
-    world(shapes, moreau::Cohesive<moreau::RollingResistance<T>>(rolling, T(1e-3)), size);
-  }
-  SUBCASE("Cohesive holds grains together") {
-    using Law = moreau::Cohesive<moreau::SignoriniCoulomb<T>>;
-    hang(
-        shapes, [&](T attraction) { return Law(coulomb, attraction); }, size);
-  }
-  SUBCASE("LinearSpringDashpot") {
-    world(shapes, conformance::stiff_springs<T>(mass), size);
-  }
-  SUBCASE("HertzMindlin") {
-    world(shapes, conformance::stiff_spheres<T>(mass), size);
-  }
+}
+
+/// Both. Subcases of doctest: the test case runs once for each.
+template <class ShapeT>
+void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  laws_of_pushes(shapes, size);
+  laws_of_attraction(shapes, size);
 }
 template <moreau::Shape ShapeT>
 void all_laws(const ShapeT& shape, typename moreau::SpaceOf<ShapeT>::Scalar size) {

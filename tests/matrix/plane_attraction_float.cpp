@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "conformance/matrix.hpp"
+#include "matrix/shapes.hpp"
+
+namespace {
+
+using S = moreau::Space<2, float>;
+using Sharp = moreau::Polygon<float>;
+
+constexpr auto all_laws = [](const auto& shapes, S::Scalar size) {
+  conformance::laws_of_attraction(shapes, size);
+};
+
+}  // namespace
+
+TEST_CASE("plane, float: disks under laws that attract") {
+  matrix::balls<S>(all_laws);
+}
+TEST_CASE("plane, float: stadiums under laws that attract") {
+  matrix::capsules<S>(all_laws);
+}
+TEST_CASE("plane, float: polygons under laws that attract") {
+  matrix::polytopes<Sharp>(all_laws);
+}
+TEST_CASE("plane, float: rounded polygons under laws that attract") {
+  matrix::rounded<Sharp>(all_laws);
+}
+TEST_CASE("plane, float: disks, polygons and stadiums under laws that attract") {
+  matrix::mixtures<Sharp>(all_laws);
+}
+TEST_CASE("plane, float: polygons with sharp and rounded corners under laws that attract") {
+  matrix::sharp_and_rounded<Sharp>(all_laws);
+}
+TEST_CASE("plane, float: a shape known by its farthest points under laws that attract") {
+  matrix::support_only<S>(all_laws);
+}
+TEST_CASE("plane, float: concave ballast under laws that attract") {
+  matrix::ballast<Sharp>(all_laws);
+}
+TEST_CASE("plane, float: dumbbells under laws that attract") {
+  matrix::dumbbells<S>(all_laws);
+}

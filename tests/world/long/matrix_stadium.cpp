@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "moreau/shape/capsule.hpp"
-
-#include "conformance/matrix.hpp"
-
-TEST_CASE_TEMPLATE("stadiums under every law", T, double, float) {
-  conformance::all_laws(moreau::Stadium<T>(T(0.0025), T(0.0025)), T(0.01));
-}
