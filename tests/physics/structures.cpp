@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Structures that stand according to statics. Larger structures, which take minutes, are in
 // long/structures.cpp.
+#include <cmath>
+#include <limits>
+
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 
@@ -74,6 +77,37 @@ TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedr
     masonry::check_stands_by_default(masonry::card_house<ShapeT>(1.5 * masonry::card_friction), h,
                                      count);
   }
+}
+
+// What is left of their relative velocities is the rounding of their speed.
+TEST_CASE_TEMPLATE("a stack that is thrown flies as one body, and steps are solved", ShapeT,
+                   Polyhedron<>, Polygon<>, Polygon<float>) {
+  using Scalar = typename moreau::SpaceOf<ShapeT>::Scalar;
+  using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
+  constexpr double h = 1e-3;
+  for (const int blocks : {2, 3, 6})
+    for (const double friction : {0.0, 0.5})
+      for (const double ratio : {1.0, 1000.0})
+        for (const double speed : {0.5, 7.3, 61.7}) {
+          CAPTURE(blocks);
+          CAPTURE(friction);
+          CAPTURE(ratio);
+          CAPTURE(speed);
+          auto structure = masonry::stack<ShapeT>(blocks, friction, 0, ratio);
+          auto& simulation = structure.simulation;
+          simulation.set_solver(moreau::ColouredGaussSeidel());
+          for (const moreau::BodyId block : simulation.grains())
+            simulation.set_velocity(block, Vector(Vector::Unit(structure.up) * Scalar(speed)));
+          int unsolved = 0;
+          constexpr int steps = rounds(30);
+          for (int k = 0; k < steps; ++k) unsolved += !simulation.step(Scalar(h)).solve.converged;
+          CHECK(unsolved == 0);
+          const double end = speed - masonry::gravity * h * steps;
+          const double allowed =
+              1e-3 * masonry::gravity * h + steps * std::numeric_limits<Scalar>::epsilon() * speed;
+          for (const moreau::BodyId block : simulation.grains())
+            CHECK(std::abs(double(simulation.velocity(block)[structure.up]) - end) < allowed);
+        }
 }
 
 // Their contacts bore a load in the step before, and bear none now.

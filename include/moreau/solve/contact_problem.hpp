@@ -58,6 +58,9 @@ struct ContactProblem {
   List<Scalar> rounding;
   /// Velocities that the loads of the step give the bodies, one per body, g h under gravity alone [m/s]; empty: not known.
   List<Scalar> load;
+  /// Velocities of the bodies without impulses, from which b is computed, one per body, (v, w) in world axes [m/s, rad/s];
+  /// in single precision only; empty: not known.
+  List<typename Space::Twist> free;
   /// That of the contacts.
   [[no_unique_address]] std::conditional_t<
       AttractiveLaw<Law, Space>, detail::ProblemAttraction<Scalar>, detail::NoProblemAttraction>

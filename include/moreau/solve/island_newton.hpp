@@ -114,26 +114,48 @@ class IslandNewton {
 
   /// Moves to impulses.
   /// @param impulses [N s]
-  /// @param least_motion errors are relative to this velocity where the impulses change velocities by less [m/s]
+  /// @param least_of function: body of the problem -> velocity that its errors are relative to at least [m/s]
   /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no
   ///          factorization
-  double start(std::span<const Impulse> impulses, double least_motion = 0) {
-    step_.start(impulses, least_motion);
-    slides_ = can_turn && step_.sliding_points() > std::size_t(S::dim);
+  double start(std::span<const Impulse> impulses, const auto& least_of) {
+    step_.start(impulses, least_of);
+    slides_ = step_.sliding_points() >= least_sliding;
     return step_.defect();
   }
+  /// Calls take(body of the problem, velocity that its errors are relative to with the impulses of start() [m/s]).
+  void take_scales(const auto& take) const { step_.take_scales(take); }
+  /// After start(): moves to impulses that do not depend on those of start(), which sweeps may have given to a contact because
+  /// they visit it first. They are those of equal springs between the bodies, as by one proximal step, and by another one
+  /// with the lifts that it has found.
+  /// @param before  where the springs are not stretched: the warm start [N s]
+  /// @param epsilon of the step
+  /// @returns whether it has succeeded; if not, start() must be called again
+  bool start_by_springs(std::span<const Impulse> before, double epsilon,
+                        const Precision& precision) {
+    step_.analyse();
+    step_.begin();
+    step_.make_even();
+    step_.set_centre(before);
+    for (int pass = 0; pass < 2; ++pass) {
+      if (!step_.make(epsilon, precision.most_steps, precision.tolerance)) return false;
+      step_.take_lifts();
+    }
+    step_.accept();
+    step_.first_lifts();
+    slides_ = step_.sliding_points() >= least_sliding;
+    return true;
+  }
 
-  /// The largest change of a velocity of a body by the impulses of start() [m/s].
-  double motion() const { return step_.motion(); }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
   double slip() const { return step_.slip(); }
 
   /// Solves the island, from the impulses of start().
   /// @param epsilon of the first proximal step
-  /// @returns the largest error of the velocity of a body, relative to the largest change of such a
-  ///          velocity by the impulses of the island: estimate of a root mean square over the mass [-]
+  /// @returns the largest error of the velocity of a body, relative to what its contacts change of it, and where these
+  ///          changes cancel at most to the largest change of a velocity in the island (ProximalStep::find_scales()):
+  ///          estimate of a root mean square over the mass [-]
   double solve(double epsilon, const Precision& precision) {
     step_.analyse();
     step_.begin();
@@ -161,13 +183,11 @@ class IslandNewton {
     }
     return error;
   }
-  /// Whether faces slide whose pressure may not be unique, with the impulses of start(). In the plane it is, or the motion
-  /// does not depend on it.
-  bool slides_on_faces() const { return can_turn && slides_; }
+  /// Whether faces slide, with the impulses of start(). In space their pressure may not be unique. In the plane it is, or
+  /// the motion does not depend on it, but lifts converge slowly where faces slide between heavy bodies.
+  bool slides_on_faces() const { return slides_; }
   /// solve(), near impulses that press evenly on each face, with limits of friction in place of lifts.
-  double solve_evenly(double epsilon, Precision precision) {
-    // Errors are relative to the fastest body, and a light one can be much faster than those that slide.
-    precision.tolerance = std::max(precision.tolerance * step_.stopped(), least_even_tolerance);
+  double solve_evenly(double epsilon, const Precision& precision) {
     step_.even_faces();
     const double error = solve(epsilon, precision);
     is_better_ = error <= precision.tolerance;
@@ -195,9 +215,8 @@ class IslandNewton {
   static constexpr double visits_per_contact = 5 * S::angular_dim,
                           visits_per_block = S::dofs * S::dofs / 6;
   static constexpr double largest_q = 0.95;  ///< ratio of the changes of two steps
-  /// Whether a face can turn while it slides. In the plane it is a line, and friction acts along it, whatever the pressure.
-  static constexpr bool can_turn = bool(S::dim - 2);
-  static constexpr double least_even_tolerance = 1e-9;
+  /// Points on sliding faces, at least. Fewer points, in space three of one face, bear a unique pressure.
+  static constexpr std::size_t least_sliding = 2 * (S::dim - 1);
   static constexpr double slow_q =
       0.7;  ///< the same, at which limits of friction converge too slowly
 

@@ -31,8 +31,9 @@ struct SolveReport {
   static constexpr double max_relative_approach = 0.1;  ///< bound on relative_approach [-]
 
   /// Of bodies in small islands, sets of up to 200 bodies that contacts connect: the largest error of a
-  /// velocity, as a root mean square over the mass of a body, relative to the largest velocity that
-  /// impulses gave to a body of its island in the step [-]. For a structure at rest this is g h. It is
+  /// velocity, as a root mean square over the mass of a body [-]. It is relative to the sum of the velocities that the impulses
+  /// of its contacts gave to the body in the step, at most to the largest velocity that impulses gave to a body of its
+  /// island. For a structure at rest this is g h. It is
   /// estimated by a direct method, which attempts structures at rest in every step, islands of many contacts
   /// per body in some steps, and no colliding grains. Where the method does not succeed, it is a lower bound.
   /// 0 if no island was attempted: small errors of many contacts then add up unseen.

@@ -200,7 +200,7 @@ class OverlapCorrection {
         continue;
       for (const std::uint32_t c : own) pushes_[c].setZero();
       newton_.assign(op, own, free, frictionless);
-      newton_.start(pushes_);
+      newton_.start(pushes_, [&](std::uint32_t) { return double(slop) / 100; });
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);
       for (const std::uint32_t c : own) {

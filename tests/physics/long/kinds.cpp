@@ -107,20 +107,22 @@ TEST_CASE_TEMPLATE("kinds: a prism that lands flat and spins about the vertical 
   }
 }
 
-// The force on the wall holds less than the weight. Left out, see limits.md: a wall of a thousandth of the mass of a
-// block, and the plane, where some steps of rows of three are not solved.
+// The force on the wall holds less than the weight. The wall is from a thousandth to a thousand times as heavy as a block: its
+// velocity without contacts is up to some hundred m/s, and the blocks fall with g h. In the plane some of the first steps of rows of three and six
+// are not solved, and say so.
 TEST_CASE_TEMPLATE("kinds: blocks that slide in a row between two walls do not turn", ShapeT,
-                   Polyhedron<>, Polyhedron<float>) {
+                   Polyhedron<>, Polygon<>, Polyhedron<float>, Polygon<float>) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   const Vector up = Vector::Unit(S::dim - 1), across = Vector::UnitX();
   int variant = 0;
-  for (const int count : {1, 2, 3})
+  for (const int count : {1, 2, 3, 6})
     for (const double h : {1e-3, 1.0 / 60})
-      for (const double mass : {1.0, 1e3})
-        for (const double share : {0.9, 0.5}) {
-          const double size = ++variant % 2 == 0 ? 0.1 : 1, friction = 0.5;
+      for (const double mass : {1e-3, 1e-2, 1.0, 1e3})
+        for (const double share : {0.9, 0.5, 0.99}) {
+          constexpr double sizes[] = {0.1, 1, 0.01};
+          const double size = sizes[++variant % 3], friction = 0.5;
           World<ShapeT> world = world_of<ShapeT>(size, friction, up);
           const auto shape = world.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(T(size / 2))));
           double force = 0;
@@ -137,13 +139,15 @@ TEST_CASE_TEMPLATE("kinds: blocks that slide in a row between two walls do not t
           int unsolved = 0;
           for (int k = 0; k < steps; ++k) unsolved += !world.step(T(h)).solve.converged;
           CAPTURE(variant);
-          CHECK(unsolved == 0);
+          CAPTURE(count);
+          CHECK(unsolved <= (in_space<ShapeT> || count < 3 ? 0 : 10));
+          if (unsolved > 0) continue;
           for (const auto grain : world.grains()) {
             CHECK(double((world.pose(grain).rotation.toRotationMatrix() - S::Matrix::Identity())
-                             .norm()) < bound<ShapeT>(1e-4, 3e-3));
+                             .norm()) < 1e-4);
             CHECK(-double(world.velocity(grain)[S::dim - 1]) ==
                   doctest::Approx(weight * (1 - share) * steps * h)
-                      .epsilon(bound<ShapeT>(1e-4, 1e-2)));
+                      .epsilon(bound<ShapeT>(1e-4, 1e-3)));
           }
         }
 }

@@ -103,10 +103,12 @@ class IslandPoints {
 
   /// A contact.
   struct Point {
-    Rows a, b;                     ///< J of its bodies
-    Vector free;                   ///< b [m/s]
-    Vector compliance;             ///< C [1/kg]
-    double diagonal;               ///< mean of the diagonal of W_cc [1/kg]
+    Rows a, b;          ///< J of its bodies
+    Vector free;        ///< b [m/s]
+    Vector compliance;  ///< C [1/kg]
+    double diagonal;    ///< mean of the diagonal of W_cc [1/kg]
+    /// Root mean square over the axes of |J^T| of its bodies [kg^-1/2]
+    double mobility_a, mobility_b;
     std::uint32_t body_a, body_b;  ///< in the island; none: cannot move
     std::uint32_t contact;         ///< in the problem
     double friction;               ///< mu [-]
@@ -152,7 +154,10 @@ class IslandPoints {
     point.body_b = number(source.body_b);
     point.a = rows(source.frame, point.body_a, source.lever_a, -1);
     point.b = rows(source.frame, point.body_b, source.lever_b, 1);
-    point.diagonal = (point.a.squaredNorm() + point.b.squaredNorm()) / dim;
+    const double square_a = point.a.squaredNorm() / dim, square_b = point.b.squaredNorm() / dim;
+    point.mobility_a = std::sqrt(square_a);
+    point.mobility_b = std::sqrt(square_b);
+    point.diagonal = square_a + square_b;
     if (!(point.diagonal > 0)) return;
     if (point.body_a != none && point.body_b != none &&
         (edges_.empty() || edges_.back() != std::array{point.body_a, point.body_b}))

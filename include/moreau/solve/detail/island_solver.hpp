@@ -10,11 +10,13 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "moreau/contact/contact_islands.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/solve/contact_problem.hpp"
+#include "moreau/solve/detail/jacobian_rows.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/solve_report.hpp"
 
@@ -44,6 +46,7 @@ class IslandSolver {
     small_.clear();
     moved_.assign(problem.delassus.body_count(), 0);
     motion_.resize(moved_.size());
+    borne_.assign(moved_.size(), 0);
     others_ = islands_->has_large();
     made_even_ = false;
     for (std::size_t k = 0; k < islands_->size(); ++k) {
@@ -63,14 +66,12 @@ class IslandSolver {
       }
       // Without impulses the defect is 0 where no contact closes, and otherwise 1.
       Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted};
-      one.least_motion = std::max(largest_of(problem, contacts, problem.rounding) / tolerance_,
-                                  least_share * largest_of(problem, contacts, problem.load));
       if (!is_new) {
         take(problem, k);
-        one.defect = newton_.start(impulses);
-        one.least_motion = std::max(
-            one.least_motion, std::max(least_share, rounding / tolerance_) * newton_.motion());
-        if (!attempt_evenly(problem, one, impulses, 0, one.defect)) attempt(one, impulses);
+        one.defect = start_newton(problem, impulses);
+        newton_.take_scales([&](std::uint32_t body, double scale) { borne_[body] = scale; });
+        if (!attempt_evenly(problem, one, impulses, 0, one.defect, late_epsilon))
+          attempt(one, impulses);
       }
       small_.push_back(one);
     }
@@ -106,23 +107,31 @@ class IslandSolver {
       find_cost(one);
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
-      const double defect = newton_.start(impulses, one.least_motion);
-      if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect)) continue;
+      const double defect = start_newton(problem, impulses);
+      if (one.is_new && newton_.slides_on_faces()) start_by_springs(problem, impulses);
+      if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect, late_epsilon))
+        continue;
+      if (one.is_new && one.failed) {  // the pressures of springs are far from the solution
+        start_by_springs(problem, impulses);
+        if (attempt_evenly(problem, one, impulses, sweeps, defect, even_epsilon)) continue;
+      }
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && converged) continue;
       // Sweeps give the load of a pair to the point that they visit first.
       const double error =
           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps});
-      keep(one, impulses, error, defect);
+      if (keep(one, impulses, error, defect)) continue;
       if (one.is_new && newton_.is_better() && error <= std::max(near * tolerance_, even_enough)) {
         newton_.finish(impulses);
         one.error = error;
         made_even_ = true;
         continue;
       }
-      if (one.error <= near * tolerance_) continue;
-      newton_.start(impulses, one.least_motion);
-      solve_directly(one, impulses, late_epsilon, most_steps, defect);
+      const double by_sweeps = one.error;
+      start_newton(problem, impulses);
+      if (!solve_directly(one, impulses, late_epsilon, most_steps, defect) &&
+          by_sweeps <= near * tolerance_)
+        one.error = one.start_error = by_sweeps;
     }
   }
   /// Whether the pressures of an island were made even that slides or had no warm start.
@@ -168,9 +177,6 @@ class IslandSolver {
     double error;         // relative [-]
     double start_error;   // the same of the impulses from which the direct method started, at least
     bool failed = false;  // attempt_evenly()
-    // Errors are relative to this velocity where impulses change velocities by less [m/s]: a structure that lost its
-    // support, and now falls freely, is solved where its error is small against its load.
-    double least_motion = 0;
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
@@ -188,12 +194,9 @@ class IslandSolver {
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
   static constexpr double even_enough = 1e-6;
-  /// Of the velocities that the warm start or the loads of the step give: the share that errors are relative to at least;
-  /// of those by the warm start, errors of rounding.
-  static constexpr double least_share = 0.01,
-                          rounding =
-                              64 *
-                              double(std::numeric_limits<typename Operator::Scalar>::epsilon());
+  /// Errors of a body are relative to this share of the velocities that the loads of the step or the warm start give to it
+  /// at least.
+  static constexpr double least_share = 0.01;
   /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
   static constexpr std::size_t most_new = 10, most_colliding = 3;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
@@ -203,15 +206,20 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 10.5 * unit,
                           warm_visits = 50 * unit;
 
-  /// The largest of some velocities of the bodies of an island [m/s].
-  static double largest_of(const Problem& problem, std::span<const std::uint32_t> contacts,
-                           const List<typename Problem::Scalar>& velocities) {
-    double largest = 0;
-    if (velocities.empty()) return largest;
-    for (const std::uint32_t c : contacts)
-      for (const std::uint32_t body : problem.delassus.bodies(c))
-        largest = std::max(largest, double(velocities[body]));
-    return largest;
+  /// Of the island that take() took. Where impulses change the velocity of a body by less, its errors are relative to its
+  /// load, to its rounding and to what it bore before: a structure that lost its support, and now falls freely, is solved.
+  double start_newton(const Problem& problem, Impulses impulses) {
+    return newton_.start(impulses, [&](std::uint32_t body) {
+      const double least = least_share * borne_[body];
+      if (problem.load.empty()) return least;
+      return std::max({least, double(problem.rounding[body]) / tolerance_,
+                       least_share * double(problem.load[body])});
+    });
+  }
+  /// Of an island without a warm start, after start_newton().
+  void start_by_springs(const Problem& problem, Impulses impulses) {
+    if (!newton_.start_by_springs(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}))
+      start_newton(problem, impulses);
   }
   bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
@@ -241,9 +249,10 @@ class IslandSolver {
     return true;
   }
   /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
+  /// @param epsilon of the first proximal step
   /// @returns whether it succeeds; if not, the impulses are those of start()
   bool attempt_evenly(const Problem& problem, Small& one, Impulses impulses, int sweeps,
-                      double defect) {
+                      double defect, double epsilon) {
     // With springs the pressure is unique.
     constexpr bool springs = requires(const Operator op) {
       op.compliance(std::size_t());
@@ -254,11 +263,10 @@ class IslandSolver {
     if (!one.is_new && one.defect > largest_defect && bodies > most_colliding) return false;
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
-    const double error =
-        newton_.solve_evenly(late_epsilon, {tolerance_, least_epsilon, most_steps});
+    const double error = newton_.solve_evenly(epsilon, {tolerance_, least_epsilon, most_steps});
     one.failed = !newton_.is_better();
     if (one.failed) {
-      newton_.start(impulses, one.least_motion);
+      start_newton(problem, impulses);
       return false;
     }
     keep(one, impulses, error, defect);
@@ -294,22 +302,53 @@ class IslandSolver {
   MOREAU_COMPILED_ONCE void take(const Problem& problem, std::size_t island) {
     newton_.assign(
         problem.delassus, islands_->contacts(island),
-        [&](std::size_t c) { return problem.delassus.free_velocity(c); },
+        [&](std::size_t c) { return free_velocity(problem, c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
-  MOREAU_INLINED void solve_directly(Small& one, Impulses impulses, double epsilon, int steps,
+  /// b of a contact [m/s]. In single precision b has the rounding of the velocities of the bodies. Two points of a face
+  /// would then have to close at velocities that no motion of the bodies has, and impulses become as large as this
+  /// rounding over the compliance of a step. In double precision the velocities of the bodies agree.
+  static Eigen::Matrix<double, Operator::Space::dim, 1> free_velocity(const Problem& problem,
+                                                                      std::size_t c) {
+    using S = typename Operator::Space;
+    const auto rounded = problem.delassus.free_velocity(c).template cast<double>().eval();
+    if constexpr (std::is_same_v<typename Operator::Scalar, float>) {
+      if (problem.free.empty() || !rounded.allFinite()) return rounded;
+      const auto [a, b] = problem.delassus.bodies(c);
+      const auto& frame = problem.delassus.frame(c);
+      const auto of_a = problem.free[a].template cast<double>().eval(),
+                 of_b = problem.free[b].template cast<double>().eval();
+      const auto rows_a = jacobian_rows<S>(frame, problem.delassus.lever_a(c), -1),
+                 rows_b = jacobian_rows<S>(frame, problem.delassus.lever_b(c), 1);
+      Eigen::Matrix<double, S::dim, 1> exact = rounded;
+      for (int k = 0; k < S::dim; ++k) {
+        const double sum = rows_a.row(k).dot(of_a) + rows_b.row(k).dot(of_b);
+        const double terms = rows_a.row(k).cwiseAbs().dot(of_a.cwiseAbs()) +
+                             rows_b.row(k).cwiseAbs().dot(of_b.cwiseAbs());
+        // An offset of the law that is smaller has no digit that is known.
+        constexpr double several = 4 * double(std::numeric_limits<float>::epsilon());
+        if (std::abs(rounded[k] - sum) <= several * terms) exact[k] = sum;
+      }
+      return exact;
+    } else {
+      return rounded;
+    }
+  }
+  /// @returns whether it has succeeded
+  MOREAU_INLINED bool solve_directly(Small& one, Impulses impulses, double epsilon, int steps,
                                      double defect) {
     const double error = newton_.solve(epsilon, {tolerance_, least_epsilon, steps});
-    keep(one, impulses, error, std::max(newton_.first_change(), defect));
+    return keep(one, impulses, error, std::max(newton_.first_change(), defect));
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.
   /// @param error of these
-  /// @param start_error of those from which it started, at least
-  void keep(Small& one, Impulses impulses, double error, double start_error) {
+  /// @param start_error of those from which it started, at least: the error is known by nothing else if it fails
+  /// @returns whether it has succeeded
+  bool keep(Small& one, Impulses impulses, double error, double start_error) {
     one.start_error = start_error;
     if (!newton_.is_better() || error > near * tolerance_) {
       one.error = std::max(start_error, 2 * tolerance_);
-      return;
+      return false;
     }
     one.error = error;
     newton_.finish(impulses);
@@ -317,6 +356,7 @@ class IslandSolver {
       moved_[body] = 1;
       motion_[body] = change.template cast<typename Operator::Scalar>();
     });
+    return true;
   }
 
   double tolerance_ = 0;
@@ -326,7 +366,8 @@ class IslandSolver {
   Newton newton_;
   List<Small> small_;
   List<Impulse> saved_;
-  List<unsigned char> moved_;                     // by the direct method, one per body
+  List<double> borne_;         // one per body: the scale of errors of the warm start [m/s]
+  List<unsigned char> moved_;  // by the direct method, one per body
   List<typename Operator::Space::Twist> motion_;  // change of the velocity, where moved_
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -42,6 +43,8 @@ class ProximalStep {
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
+    least_.resize(points_.bodies());
+    scale_.resize(points_.bodies());
   }
   /// Finds the order of the factorization.
   /// @returns its cost, in products of two blocks
@@ -51,13 +54,15 @@ class ProximalStep {
   }
 
   /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
-  /// @param least_motion errors are relative to this velocity where the impulses change velocities by less [m/s]
-  void start(std::span<const Impulse> impulses, double least_motion) {
-    least_motion_ = least_motion;
+  /// @param least_of function: body of the problem -> velocity that its errors are relative to at least, see find_scales()
+  ///                 [m/s]
+  void start(std::span<const Impulse> impulses, const auto& least_of) {
+    for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = least_of(points_.body(i));
     common_ = 0;
     has_limits_ = false;
     set_centre(impulses);
     move_to_centre();
+    find_scales(centre_, y_);
     first_lifts();
   }
   /// Sets the velocities of the contacts in the motion of the centre, and their lifts.
@@ -90,13 +95,13 @@ class ProximalStep {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       centre_[k] = impulses[points_.points()[k].contact].template cast<double>();
   }
-  /// The change of the motion by the laws, with a compliance w in series with every contact, relative to the motion [-].
+  /// The change of the motion by the laws, with a compliance w in series with every contact, relative to find_scales() [-].
   MOREAU_INLINED double defect() {
-    const double defect = respond(1, y_).rest, motion = scale(y_);
-    return motion > 0 ? defect / motion : defect > 0 ? 1 : 0;
+    respond(1, y_);
+    find_scales(found_, y_);
+    const double defect = relative(f_);
+    return std::isfinite(defect) ? defect : 1;
   }
-  /// The largest change of a velocity of a body by the impulses of start() [m/s].
-  double motion() const { return scale(y_); }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
   double slip() const {
@@ -107,32 +112,29 @@ class ProximalStep {
       const Vector u = point.free + points_.velocity(point, y_);
       fastest = std::max(fastest, slip_of(u));
     }
-    const double motion = scale(y_);
+    const double motion = fastest_body();
     return motion > 0 ? fastest / motion : 0;
   }
 
   /// How many points lie on faces that slide, with the impulses of start(). Faces are those of two points and more.
   MOREAU_INLINED std::size_t sliding_points() {
-    const double motion = scale(y_);
-    closed_ = 1e-6 * motion;
-    const SlidingCount count = count_sliding<S>(points_.points(), std::span<const Vector>(centre_),
-                                                std::span<const Vector>(slip_), closed_, motion);
-    stopped_ = motion > 0 ? count.stopped / motion : count.stopped;
-    return count.points;
+    return count_sliding<S>(points_.points(), std::span<const Vector>(centre_),
+                            std::span<const Vector>(slip_), sliding_scales());
   }
-  /// After sliding_points(): the least velocity that friction on a face can change in the step, relative to the largest
-  /// change of a velocity by the impulses, which may be that of a light body [-]. At most 1.
-  double stopped() const { return stopped_; }
   /// Makes the pressure of each face uniform in the centre. Its sum remains. From now on the friction of each contact
   /// has a limit, which take_lifts() sets. After sliding_points().
   MOREAU_INLINED void even_faces() {
     first_lifts();
     make_common();
     has_limits_ = true;
-    detail::make_even<S>(points_.points(), std::span<const Vector>(slip_), closed_,
+    detail::make_even<S>(points_.points(), std::span<const Vector>(slip_), sliding_scales(),
                          std::span<Vector>(centre_), std::span<double>(limit_));
   }
 
+  /// Calls take(body of the problem, velocity that its errors are relative to [m/s]).
+  void take_scales(const auto& take) const {
+    for (std::size_t i = 0; i < scale_.size(); ++i) take(points_.body(i), scale_[i]);
+  }
   /// Counts the steps of Newton's method from zero.
   void begin() { steps_ = 0; }
   int steps() const { return steps_; }  ///< since begin(), each with a factorization
@@ -143,11 +145,12 @@ class ProximalStep {
     constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
-    Value value = respond(epsilon, next_);
+    double norm = respond(epsilon, next_);
     double before = std::numeric_limits<double>::infinity();
     for (;;) {
-      if (!std::isfinite(value.norm)) return false;
-      const double left = value.rest / scale(next_), exact = rounding / epsilon;
+      if (!std::isfinite(norm)) return false;
+      find_scales(found_, next_);
+      const double left = relative(f_), exact = rounding / epsilon;
       const double aim = std::max(share * tolerance, exact);
       const bool solved = !(left > aim);
       // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
@@ -157,7 +160,7 @@ class ProximalStep {
       if (steps_ == most_steps) return false;
       ++steps_;
       before = left;
-      if (!newton_direction() || !shorten(epsilon, value)) {
+      if (!newton_direction() || !shorten(epsilon, norm)) {
         if (!solved) return false;
         respond(epsilon, next_);
         break;
@@ -168,21 +171,23 @@ class ProximalStep {
     return true;
   }
   /// Sets the lifts, or the limits, of the motion that a proximal step has found.
-  /// @returns the largest change of a lift and of the velocity of a body by the step, relative to scale() [-]
+  /// @returns the largest change of a lift and of the velocity of a body by the step, and by the change of the limits,
+  ///          relative to find_scales() [-]
   MOREAU_INLINED double take_lifts() {
-    double largest = 0;
-    for (std::size_t i = 0; i < y_.size(); ++i)
-      largest = std::max(largest, Coordinates(next_[i] - y_[i]).norm() * points_.speed(i));
+    find_scales(found_, next_);
+    for (std::size_t i = 0; i < y_.size(); ++i) f_[i] = next_[i] - y_[i];
+    double largest = relative(f_);
+    if (has_limits_) return std::max(largest, take_limits());
     for (std::size_t k = 0; k < lift_.size(); ++k) {
-      if (has_limits_) {
-        limit_[k] = points_.points()[k].friction * found_[k][0];
-        continue;
-      }
-      const double lift = points_.points()[k].friction * slip_of(slip_[k]);
-      if (found_[k][0] > 0) largest = std::max(largest, std::abs(lift - lift_[k]));
+      const auto& point = points_.points()[k];
+      const double lift = point.friction * slip_of(slip_[k]), change = std::abs(lift - lift_[k]);
+      // A slip is that of both bodies.
+      if (found_[k][0] > 0 && change > 0)
+        largest =
+            std::max(largest, change / std::max(scale_of(point.body_a), scale_of(point.body_b)));
       lift_[k] = lift;
     }
-    return largest > 0 ? largest / scale(next_) : 0;
+    return largest;
   }
   /// Makes the solution that make() has found the next centre.
   void accept() {
@@ -208,8 +213,9 @@ class ProximalStep {
         next_[i] = along(y_[i], 1, direction_[i]);
         change = std::max(change, direction_[i].norm() * points_.speed(i));
       }
-      const double left = respond(firm, next_).rest, motion = scale(next_);
-      if (!(left <= several * rounding / firm * motion)) return;
+      respond(firm, next_);
+      const double motion = largest(next_);
+      if (!(largest(f_) <= several * rounding / firm * motion)) return;
       accept();
       if (change <= rounding * motion) return;
     }
@@ -239,19 +245,70 @@ class ProximalStep {
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
   }
-  /// Largest velocity of a body in the motion of the centre and in another one, at least that of start() [m/s].
-  double scale(std::span<const Coordinates> other) const {
-    double largest = least_motion_;
-    for (std::size_t i = 0; i < y_.size(); ++i)
-      largest = std::max(largest, std::max(y_[i].norm(), other[i].norm()) * points_.speed(i));
+  /// Largest velocity of a body in a motion [m/s].
+  double largest(std::span<const Coordinates> motion) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i)
+      largest = std::max(largest, motion[i].norm() * points_.speed(i));
     return largest;
   }
-  /// F at a motion: |F|, and the largest velocity of a body in it [m/s].
-  struct Value {
-    double norm, rest;
-  };
+  /// Sets the velocity that the errors of each body are relative to: the sum of the velocities that its contacts give to it,
+  /// at most the largest velocity of a body in the motion of the centre or in another one, at least that of start(). A
+  /// light body can be much faster than its neighbours, and impulses that bear a heavy one would each move it much faster
+  /// than all of them together.
+  /// @param impulses of the contacts, or those of the centre where these are larger [N s]
+  void find_scales(std::span<const Vector> impulses, std::span<const Coordinates> other) {
+    std::fill(scale_.begin(), scale_.end(), 0);
+    for (std::size_t k = 0; k < impulses.size(); ++k) {
+      const auto& point = points_.points()[k];
+      const double push = std::max(impulses[k].norm(), centre_[k].norm());
+      if (point.body_a != Points::none) scale_[point.body_a] += push * point.mobility_a;
+      if (point.body_b != Points::none) scale_[point.body_b] += push * point.mobility_b;
+    }
+    const double most = std::max(largest(y_), largest(other));
+    for (std::size_t i = 0; i < scale_.size(); ++i)
+      scale_[i] = std::max(least_[i], std::min(most, scale_[i] * points_.speed(i)));
+  }
+  /// Sets the limits of the friction that a step has found.
+  /// @returns the largest change of the velocity of a body if the friction of one contact followed, relative to find_scales() [-]
+  MOREAU_INLINED double take_limits() {
+    double largest = 0;
+    for (std::size_t k = 0; k < limit_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      const double limit = point.friction * found_[k][0], change = std::abs(limit - limit_[k]);
+      // Friction that is below its limit does not feel that the limit changes.
+      if (slip_of(found_[k]) >= (1 - 1e-9) * std::min(limit, limit_[k]))
+        largest = std::max({largest, relative(point.body_a, change * point.mobility_a),
+                            relative(point.body_b, change * point.mobility_b)});
+      limit_[k] = limit;
+    }
+    return largest;
+  }
+  /// Largest velocity of a body in the motion of the centre, or that errors are relative to at least [m/s].
+  double fastest_body() const {
+    double most = largest(y_);
+    for (const double least : least_) most = std::max(most, least);
+    return most;
+  }
+  SlidingScales sliding_scales() const {
+    constexpr double open = 1e-6;
+    return {open * fastest_body(), scale_};
+  }
+  double scale_of(std::uint32_t body) const { return body == Points::none ? 0 : scale_[body]; }
+  /// Largest velocity of a body in a motion, relative to find_scales() [-].
+  double relative(std::span<const Coordinates> motion) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i)
+      largest = std::max(largest, relative(std::uint32_t(i), motion[i].norm()));
+    return largest;
+  }
+  /// Velocity of a body for the length of its y, relative to find_scales() [-].
+  double relative(std::uint32_t body, double length) const {
+    return body == Points::none || length == 0 ? 0 : length * points_.speed(body) / scale_[body];
+  }
   /// Sets found_, slip_, stiffness_ and f_ for a motion y.
-  Value respond(double epsilon, std::span<const Coordinates> y) {
+  /// @returns |F|
+  double respond(double epsilon, std::span<const Coordinates> y) {
     std::copy(y.begin(), y.end(), f_.begin());
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       const auto& point = points_.points()[k];
@@ -274,13 +331,9 @@ class ProximalStep {
       }
       take(k, s, response<S>(point.friction, s, b));
     }
-    double squares = 0, rest = 0;
-    for (std::size_t i = 0; i < f_.size(); ++i) {
-      const double square = f_[i].squaredNorm();
-      squares += square;
-      rest = std::max(rest, std::sqrt(square) * points_.speed(i));
-    }
-    return {std::sqrt(squares), rest};
+    double squares = 0;
+    for (const Coordinates& f : f_) squares += f.squaredNorm();
+    return std::sqrt(squares);
   }
 
   /// Takes the response of a point: its impulse moves f_, and the compliances s add to its slip.
@@ -301,9 +354,9 @@ class ProximalStep {
   }
   /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
   /// point that the step leads to.
-  /// @param value  in: F at next_, out: at trial_
+  /// @param norm  |F|, in: at next_, out: at trial_
   /// @returns whether there is such a step
-  MOREAU_INLINED bool shorten(double epsilon, Value& value) {
+  MOREAU_INLINED bool shorten(double epsilon, double& norm) {
     constexpr int most = 30;
     constexpr double enough = 0.3;
     const double first = slope();
@@ -312,15 +365,15 @@ class ProximalStep {
     for (int k = 0; k < most; ++k) {
       for (std::size_t i = 0; i < next_.size(); ++i)
         trial_[i] = along(next_[i], length, direction_[i]);
-      const Value reached = respond(epsilon, trial_);
+      const double reached = respond(epsilon, trial_);
       const double here = slope();
-      if (std::abs(here) <= -enough * first || reached.norm < value.norm / 2) {
-        value = reached;
+      if (std::abs(here) <= -enough * first || reached < norm / 2) {
+        norm = reached;
         return true;
       }
       if (here < 0) {
         if (high == 0) {
-          value = reached;
+          norm = reached;
           return true;
         }
         if (low > 0) high_slope /= 2;
@@ -382,9 +435,7 @@ class ProximalStep {
   List<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
   List<double> lift_;                   // sigma [m/s]
   bool has_limits_ = false;             // of friction, in place of lifts
-  double stopped_ = 1;                  // see stopped()
-  double least_motion_ = 0;             // see start()
-  double closed_ = 0;                   // contacts that are not faster apart are closed [m/s]
+  List<double> least_, scale_;          // see start() and find_scales(); one per body [m/s]
   List<double> limit_;                  // mu r_n [N s]
   List<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
   List<Coordinates> y_;                                    // of the centre

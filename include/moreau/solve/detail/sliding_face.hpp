@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "moreau/core/compiled_once.hpp"
@@ -28,9 +30,10 @@ struct SlidingFace {
   double sum = 0;          ///< of the pressure [N s]
   double slip = 0;         ///< of the fastest point [m/s]
   double stopped = 0;      ///< velocity that friction can change in a step, about [m/s]
+  double still = 0;        ///< slip that is none [m/s]
   bool slides() const {
     constexpr double rest = 1e-3;
-    return points > 1 && stopped > 0 && slip > rest * stopped;
+    return points > 1 && stopped > 0 && slip > std::max(still, rest * stopped);
   }
 };
 
@@ -41,21 +44,36 @@ bool is_closed(const auto& impulse, const auto& velocity, double fastest) {
   return impulse[0] > 0 || velocity[0] <= fastest;
 }
 
+/// What counts as no motion at all.
+struct SlidingScales {
+  double fastest;  ///< as for is_closed() [m/s]
+  std::span<const double>
+      body;  ///< of each body of the island: the velocity that its errors are relative to [m/s]
+  /// Slip of a contact that is none [m/s]: ten times the error of velocities. A face with little pressure would slide with any.
+  double still(const auto& point) const {
+    constexpr double share = 1e-4;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t k : {point.body_a, point.body_b})
+      if (k < body.size()) least = std::min(least, body[k]);
+    return share * least;
+  }
+};
+
 /// The face that begins with a contact.
 /// @param points            of the island
 /// @param impulse,velocity  of each contact [N s, m/s]
-/// @param fastest           as for is_closed()
 template <class S, class Point, class Vector>
 MOREAU_INLINED inline SlidingFace find_face(std::span<const Point> points,
                                             std::span<const Vector> impulse,
-                                            std::span<const Vector> velocity, double fastest,
-                                            std::size_t first) {
+                                            std::span<const Vector> velocity,
+                                            const SlidingScales& scales, std::size_t first) {
   SlidingFace face;
+  face.still = scales.still(points[first]);
   double mobility = 0;
   for (std::size_t k = first; k < points.size() && points[k].face == points[first].face; ++k) {
     const Point& point = points[k];
     face.last = k + 1;
-    if (!is_closed(impulse[k], velocity[k], fastest)) continue;
+    if (!is_closed(impulse[k], velocity[k], scales.fastest)) continue;
     ++face.points;
     face.sum += impulse[k][0];
     face.slip = std::max(face.slip, slip_of<S>(velocity[k]));
@@ -66,25 +84,16 @@ MOREAU_INLINED inline SlidingFace find_face(std::span<const Point> points,
   return face;
 }
 
-/// Points on faces that slide.
-struct SlidingCount {
-  std::size_t points = 0;
-  double stopped;  ///< the least velocity that friction on such a face can change in a step [m/s]
-};
 /// Counts the points on faces of two points and more that slide.
-/// @param stopped without such a face [m/s]
 template <class S, class Point, class Vector>
-MOREAU_INLINED inline SlidingCount count_sliding(std::span<const Point> points,
-                                                 std::span<const Vector> impulse,
-                                                 std::span<const Vector> velocity, double fastest,
-                                                 double stopped) {
-  SlidingCount count{0, stopped};
+MOREAU_INLINED inline std::size_t count_sliding(std::span<const Point> points,
+                                                std::span<const Vector> impulse,
+                                                std::span<const Vector> velocity,
+                                                const SlidingScales& scales) {
+  std::size_t count = 0;
   for (std::size_t first = 0; first < points.size();) {
-    const SlidingFace face = find_face<S>(points, impulse, velocity, fastest, first);
-    if (face.slides()) {
-      count.points += face.points;
-      count.stopped = std::min(count.stopped, face.stopped);
-    }
+    const SlidingFace face = find_face<S>(points, impulse, velocity, scales, first);
+    if (face.slides()) count += face.points;
     first = face.last;
   }
   return count;
@@ -95,16 +104,16 @@ MOREAU_INLINED inline SlidingCount count_sliding(std::span<const Point> points,
 /// @param limit   out: mu r_n of each contact [N s]
 template <class S, class Point, class Vector>
 MOREAU_INLINED inline void make_even(std::span<const Point> points,
-                                     std::span<const Vector> velocity, double fastest,
+                                     std::span<const Vector> velocity, const SlidingScales& scales,
                                      std::span<Vector> impulse, std::span<double> limit) {
   for (std::size_t first = 0, last; first < points.size(); first = last) {
     const SlidingFace face =
-        find_face<S>(points, std::span<const Vector>(impulse), velocity, fastest, first);
+        find_face<S>(points, std::span<const Vector>(impulse), velocity, scales, first);
     last = face.last;
     for (std::size_t k = first; k < last; ++k) {
       if (face.points > 1)
         impulse[k][0] =
-            is_closed(impulse[k], velocity[k], fastest) ? face.sum / double(face.points) : 0;
+            is_closed(impulse[k], velocity[k], scales.fastest) ? face.sum / double(face.points) : 0;
       limit[k] = points[k].friction * impulse[k][0];
       if (!face.slides()) continue;
       const double slip = slip_of<S>(velocity[k]);

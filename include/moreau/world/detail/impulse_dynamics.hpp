@@ -230,7 +230,7 @@ class ImpulseDynamics {
     }
     problem_.delassus.assemble(context.contacts.points, velocities_.roots, velocities_.free,
                                springs_.compliances(context), team_);
-    velocities_.find_scales(context.bodies, problem_);
+    velocities_.find_scales(context.bodies, problem_, team_);
     if (context.deforms()) cell_.start(context, problem_.delassus, team_);
   }
 

@@ -56,8 +56,8 @@
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
 // thousandth of the largest of the island, the step is as solved as it was. Problems without any restitution are treated in the same way.
 // An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
-// Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of rounding: bodies at
-// rest move less.
+// Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of the rounding of the
+// velocities of the bodies: bodies at rest, and those that touch and fall together, move less.
 //
 // Without restitution and with prescribed walls at rest, the sum of G over the islands is the change of the kinetic energies
 // of the bodies, sum of d . M (2 v_f + d) / 2 with the velocities v_f without the impulses and v_f + d with them. M of a
@@ -360,8 +360,9 @@ class RestitutionLimit {
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +
                            std::abs(double(bounce.impulse.dot(bounce.velocity)));
-      island.least_gain += double(negligible_) * bounce.impulse.template cast<double>().norm();
-      island.least_rest_gain += double(negligible_) * rest.impulse.template cast<double>().norm();
+      const double least = negligible_velocity(problem, c);
+      island.least_gain += least * bounce.impulse.template cast<double>().norm();
+      island.least_rest_gain += least * rest.impulse.template cast<double>().norm();
       island.rest_work += double(rest.impulse.dot(rest.velocity));
       island.rest_gain += rest.gain;
       island.rest_forced += rest.forced;
@@ -369,6 +370,14 @@ class RestitutionLimit {
       island.slope += double(change.dot(rest.velocity));
       island.curvature += double(change.dot(bounce.velocity - rest.velocity));
     }
+  }
+  /// The velocity of bodies at rest, or the rounding of those of the bodies of a contact if they are fast [m/s].
+  double negligible_velocity(const Problem& problem, std::size_t c) const {
+    Scalar least = negligible_;
+    if (!problem.rounding.empty())
+      for (const std::uint32_t body : problem.delassus.bodies(c))
+        least = std::max(least, problem.rounding[body]);
+    return double(least);
   }
   /// Makes the sets of bodies that contacts connect which act.
   /// @param acts function: index of a contact -> whether it acts

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/relative_velocity.hpp"
@@ -66,17 +67,20 @@ struct StepVelocities {
     if constexpr (AttractiveLaw<Law, S>) unattracted = free;
   }
   /// Sets the scales of errors of a problem: the rounding of `free`, and what the loads of the step add to the velocities.
-  void find_scales(const Bodies<S>& bodies, auto& problem) const {
+  void find_scales(const Bodies<S>& bodies, auto& problem, const Team& team) const {
     using Scalar = typename S::Scalar;
     constexpr Scalar several = 8;
     const auto largest = [](const Vector& v) { return v.template lpNorm<Eigen::Infinity>(); };
     problem.rounding.resize(free.size());
     problem.load.resize(free.size());
-    for (std::size_t i = 0; i < free.size(); ++i) {
+    constexpr bool single = std::is_same_v<Scalar, float>;
+    if constexpr (single) problem.free.resize(free.size());
+    team.share_each(free.size(), 256, [&](std::size_t i) {
       const Vector v = free[i].template head<S::dim>();
       problem.rounding[i] = several * std::numeric_limits<Scalar>::epsilon() * largest(v);
       problem.load[i] = largest(v - bodies.velocity[i].template head<S::dim>());
-    }
+      if constexpr (single) problem.free[i] = free[i];
+    });
   }
   /// Stage 9: V = V_free and what the impulses have changed. Throws if a velocity is not finite.
   /// @param op        with the velocities of the impulses
