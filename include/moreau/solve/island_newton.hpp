@@ -113,7 +113,7 @@ class IslandNewton {
   }
 
   /// Moves to impulses.
-  /// @param impulses [N s]
+  /// @param impulses [N s]; empty: none
   /// @param least_of function: body of the problem -> velocity that its errors are relative to at least [m/s]
   /// @returns how far their motion is from that which the laws would make of it with a compliance w in series with
   ///          every contact, relative to the motion [-]: 0 for a solution, about 1 for other impulses. Takes no

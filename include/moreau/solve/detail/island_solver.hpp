@@ -59,18 +59,20 @@ class IslandSolver {
         others_ = true;
         continue;
       }
-      bool is_new = true, closes = false;
+      bool is_new = true, closes = false, falls = true;
       for (const std::uint32_t c : contacts) {
         is_new = is_new && impulses[c].isZero(0);
         closes = closes || problem.delassus.free_velocity(c)[0] < 0;
+        falls = falls && hardly_closes(problem, c);
       }
       // Without impulses the defect is 0 where no contact closes, and otherwise 1.
-      Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted};
+      Small one{k, least_cost, closes ? 1.0 : 0.0, is_new, not_attempted, not_attempted, falls};
       if (!is_new) {
         take(problem, k);
         one.defect = start_newton(problem, impulses);
         newton_.take_scales([&](std::uint32_t body, double scale) { borne_[body] = scale; });
-        if (!attempt_evenly(problem, one, impulses, 0, one.defect, late_epsilon))
+        if (!attempt_open(problem, one, impulses, one.defect) &&
+            !attempt_evenly(problem, one, impulses, 0, one.defect, late_epsilon))
           attempt(one, impulses);
       }
       small_.push_back(one);
@@ -108,6 +110,7 @@ class IslandSolver {
       if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
       const double defect = start_newton(problem, impulses);
+      if (attempt_open(problem, one, impulses, defect)) continue;
       if (one.is_new && newton_.slides_on_faces()) start_by_springs(problem, impulses);
       if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect, late_epsilon))
         continue;
@@ -176,6 +179,7 @@ class IslandSolver {
     bool is_new;          // no contact has an impulse in the warm start
     double error;         // relative [-]
     double start_error;   // the same of the impulses from which the direct method started, at least
+    bool falls;           // no contact closes, or hardly: hardly_closes()
     bool failed = false;  // attempt_evenly()
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
@@ -210,11 +214,42 @@ class IslandSolver {
   /// load, to its rounding and to what it bore before: a structure that lost its support, and now falls freely, is solved.
   double start_newton(const Problem& problem, Impulses impulses) {
     return newton_.start(impulses, [&](std::uint32_t body) {
-      const double least = least_share * borne_[body];
-      if (problem.load.empty()) return least;
-      return std::max({least, double(problem.rounding[body]) / tolerance_,
-                       least_share * double(problem.load[body])});
+      return std::max(least_share * borne_[body], least_scale(problem, body));
     });
+  }
+  /// The velocity that the errors of a body are relative to at least, by its loads and its rounding [m/s].
+  double least_scale(const Problem& problem, std::uint32_t body) const {
+    if (problem.load.empty()) return 0;
+    return std::max(double(problem.rounding[body]) / tolerance_,
+                    least_share * double(problem.load[body]));
+  }
+  /// Whether a contact closes without impulses by no more than what errors are relative to at least.
+  bool hardly_closes(const Problem& problem, std::size_t c) const {
+    const double closing = -double(problem.delassus.free_velocity(c)[0]);
+    const auto [a, b] = problem.delassus.bodies(c);
+    return !(closing > std::max(least_scale(problem, a), least_scale(problem, b)));
+  }
+  /// Solves an island whose bodies fall together or apart from no impulses, if these are nearer to a solution than others.
+  /// Every contact is then at the apex of its cone, where Newton's method finds its way from a load that is no more, or
+  /// from the small impulses that sweeps have left, only slowly: the response changes there with every direction.
+  /// @param defect of the others, by start_newton()
+  /// @returns whether it succeeds; if not, the impulses are those of start_newton()
+  bool attempt_open(const Problem& problem, Small& one, Impulses impulses, double defect) {
+    if (!one.falls || defect <= solved_defect) return false;
+    if (start_newton(problem, {}) < defect) {
+      find_cost(one);
+      const Small before = one;
+      if (one.cost <= most_visits) {
+        const double error = newton_.solve(even_epsilon, {tolerance_, least_epsilon, most_steps});
+        // The changes of all steps may be those of rounding.
+        const bool better = newton_.is_better() || error <= tolerance_;
+        if (keep(one, impulses, error, std::max(newton_.first_change(), defect), better))
+          return true;
+      }
+      one = before;
+    }
+    start_newton(problem, impulses);
+    return false;
   }
   /// Of an island without a warm start, after start_newton().
   void start_by_springs(const Problem& problem, Impulses impulses) {
@@ -345,8 +380,12 @@ class IslandSolver {
   /// @param start_error of those from which it started, at least: the error is known by nothing else if it fails
   /// @returns whether it has succeeded
   bool keep(Small& one, Impulses impulses, double error, double start_error) {
+    return keep(one, impulses, error, start_error, newton_.is_better());
+  }
+  /// @param better whether they are better than those from which it started
+  bool keep(Small& one, Impulses impulses, double error, double start_error, bool better) {
     one.start_error = start_error;
-    if (!newton_.is_better() || error > near * tolerance_) {
+    if (!better || error > near * tolerance_) {
       one.error = std::max(start_error, 2 * tolerance_);
       return false;
     }

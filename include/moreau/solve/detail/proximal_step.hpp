@@ -54,13 +54,17 @@ class ProximalStep {
   }
 
   /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
+  /// @param impulses [N s]; empty: none
   /// @param least_of function: body of the problem -> velocity that its errors are relative to at least, see find_scales()
   ///                 [m/s]
   void start(std::span<const Impulse> impulses, const auto& least_of) {
     for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = least_of(points_.body(i));
     common_ = 0;
     has_limits_ = false;
-    set_centre(impulses);
+    if (impulses.empty())
+      std::fill(centre_.begin(), centre_.end(), Vector::Zero());
+    else
+      set_centre(impulses);
     move_to_centre();
     find_scales(centre_, y_);
     first_lifts();
