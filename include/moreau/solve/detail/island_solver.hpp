@@ -223,11 +223,15 @@ class IslandSolver {
     return std::max(double(problem.rounding[body]) / tolerance_,
                     least_share * double(problem.load[body]));
   }
-  /// Whether a contact closes without impulses by no more than what errors are relative to at least.
-  bool hardly_closes(const Problem& problem, std::size_t c) const {
+  /// Whether a contact closes without impulses by no more than rounding, or than a small share of what loads give.
+  static bool hardly_closes(const Problem& problem, std::size_t c) {
     const double closing = -double(problem.delassus.free_velocity(c)[0]);
-    const auto [a, b] = problem.delassus.bodies(c);
-    return !(closing > std::max(least_scale(problem, a), least_scale(problem, b)));
+    double least = 0;
+    if (!problem.load.empty())
+      for (const std::uint32_t body : problem.delassus.bodies(c))
+        least = std::max(
+            {least, double(problem.rounding[body]), least_share * double(problem.load[body])});
+    return !(closing > least);
   }
   /// Solves an island whose bodies fall together or apart from no impulses, if these are nearer to a solution than others.
   /// Every contact is then at the apex of its cone, where Newton's method finds its way from a load that is no more, or
