@@ -54,7 +54,7 @@
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
 // further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
-// thousandth of the largest of the island, the step is as solved as it was. Problems without any restitution are treated in the same way.
+// thousandth of the largest of the island, or of a hundredth of what the loads of the step give its bodies, the step is as solved as it was. Problems without any restitution are treated in the same way.
 // An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of the rounding of the
 // velocities of the bodies: bodies at rest, and those that touch and fall together, move less.
@@ -164,6 +164,8 @@ class RestitutionLimit {
     bool acts = false;      ///< r is not zero
   };
   using Island = IslandEnergy<Scalar>;
+  /// Changes of velocities that are none, relative to those of an island: as velocity_tolerance of ColouredOptions [-].
+  static constexpr double small = std::max(1e-5, Island::rounding);
 
   /// Whether impulses without restitution never add energy. Springs that a user has compressed release theirs, and a law
   /// of one's own may drive bodies.
@@ -263,8 +265,6 @@ class RestitutionLimit {
                                   std::span<Row> impulses, const auto& springs, const auto& solver,
                                   auto& workspace, const auto& forced, int sweeps) {
     constexpr int most_solves = 32;
-    constexpr double small =
-        std::max(1e-5, Island::rounding);  // as the velocities of bodies, see ColouredOptions
     for (int k = 1;; ++k) {
       SolveReport found;
       if constexpr (requires { solver.solve(problem, impulses, workspace, /*again=*/true); })
@@ -291,7 +291,8 @@ class RestitutionLimit {
     }
   }
   /// By how much rest_share() of an island changes relative velocities at most, as a share of the largest of this island
-  /// without impulses.
+  /// without impulses, or of the velocity that errors of its bodies are relative to at least: where bodies fall together the
+  /// largest is itself rounding.
   MOREAU_COLD double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
     if (!damps()) return 0;
     for (std::size_t c = 0; c < resting_.size(); ++c) {
@@ -299,7 +300,8 @@ class RestitutionLimit {
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row free = problem.delassus.free_velocity(c);
       const double rest = 1 - double(island.rest_share());
-      island.largest_free = std::max(island.largest_free, double(linear<S>(free).norm()));
+      island.largest_free = std::max(
+          {island.largest_free, double(linear<S>(free).norm()), least_velocity_scale(problem, c)});
       if (rest == 0) continue;
       const Row by_impulses = problem.delassus.velocity(c) - free;
       island.largest_change =
@@ -310,6 +312,16 @@ class RestitutionLimit {
       if (island.largest_change > 0)
         share = std::max(share, island.largest_change / island.largest_free);
     return share;
+  }
+  /// The velocity that errors of the bodies of a contact are relative to at least, as in IslandSolver [m/s].
+  static double least_velocity_scale(const Problem& problem, std::size_t c) {
+    constexpr double least_share = 0.01;
+    double least = 0;
+    if (!problem.load.empty())
+      for (const std::uint32_t body : problem.delassus.bodies(c))
+        least = std::max({least, double(problem.rounding[body]) / small,
+                          least_share * double(problem.load[body])});
+    return least;
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
