@@ -189,7 +189,8 @@ TEST_CASE_TEMPLATE("steps of two lengths in turn start from the same forces", Sh
     }
   }
   CHECK(sweeps_of_other <= sweeps + 40);
-  CHECK(error_of_other <= 2 * error);
+  // An error within the tolerance is any number below it; that of an island whose attempt failed is twice the tolerance.
+  CHECK(error_of_other <= 2 * std::max(error, moreau::ColouredOptions().velocity_tolerance));
 }
 
 TEST_CASE("what else belongs to a run goes with it") {
