@@ -292,7 +292,7 @@ class ColouredGaussSeidel {
   static constexpr double improvement = 0.5, divergence = 1e3;
   /// Sweeps without an improvement after which plain sweeps take the place of accelerated ones, or those of
   /// plain ones: with couples acceleration can circle for 20,000 sweeps around what 8,000 plain sweeps reach.
-  static constexpr int most_stalled = 2000;
+  static constexpr int most_stalled = 5000;
 
   /// The sweeps up to the next stopping test. In the first interval, sweeps 1, 2, 4, 8, .. update
   /// the active set.
