@@ -352,8 +352,8 @@ std::size_t divide_rims(TriangleMesh<T>& mesh, T tolerance) {
       require(v < mesh.vertices.size(), "divide_rims", "corner", v,
               "must be the index of a vertex");
   std::size_t sum = 0;
-  for (int round = 0; round < 3;
-       ++round) {  // a triangle has three edges, of which a round divides one
+  // A triangle has three edges. Each round divides one of them.
+  for (int round = 0; round < 3; ++round) {
     const auto found = detail::vertices_on_rims(mesh, tolerance);
     if (found.empty()) break;
     for (std::size_t first = 0, last; first < found.size(); first = last) {

@@ -15,6 +15,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/law/concepts.hpp"
 #include "moreau/solve/shared_bodies.hpp"
@@ -65,6 +66,17 @@ struct ContactProblem {
   [[no_unique_address]] std::conditional_t<
       AttractiveLaw<Law, Space>, detail::ProblemAttraction<Scalar>, detail::NoProblemAttraction>
       attraction;
+
+  /// Errors of a body are relative to at least this share of the velocity that the loads of the step give to it [-].
+  static constexpr double least_share = 0.01;
+
+  /// The velocity that the errors of a body are relative to at least: by its loads, and by its rounding over the
+  /// tolerance [m/s]; 0 if these are not known.
+  /// @param tolerance on the error of the velocities, relative [-]
+  MOREAU_INLINED double least_scale(std::uint32_t body, double tolerance) const {
+    if (load.empty()) return 0;
+    return std::max(double(rounding[body]) / tolerance, least_share * double(load[body]));
+  }
 
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.

@@ -104,9 +104,10 @@ struct ResidualSums {
     double largest = 0;
     for (const auto x : problem.rounding) largest = std::max(largest, double(x));
     constexpr double several = 100;
-    if (!(norm + approach <= several * double(problem.size()) * largest * largest)) return;
+    if (largest == 0 || !(norm + approach <= several * double(problem.size()) * largest * largest))
+      return;
     double least = 0;  // of the contacts: a fast body elsewhere excuses nothing
-    for (std::size_t c = 0; c < problem.size() && largest > 0; ++c) {
+    for (std::size_t c = 0; c < problem.size(); ++c) {
       const auto [a, b] = problem.delassus.bodies(c);
       const double own = std::max(double(problem.rounding[a]), double(problem.rounding[b]));
       least += own * own;

@@ -123,8 +123,8 @@ class ProximalFallback {
     return report;
   }
 
-  /// Whether the first result is the better one: it has fewer unsolved islands, or as many and less residual. Two closed results are compared by their residuals,
-  /// others by their relative approach, because the residual also falls while impulses diverge.
+  /// Whether the first result is the better one: it has fewer unsolved islands, or as many and a smaller
+  /// residual. Two closed results are compared by their residuals, others by their relative approach, because the residual also falls while impulses diverge.
   static bool is_nearer(const SolveReport& one, const SolveReport& other) {
     if (one.unsolved_islands != other.unsolved_islands)
       return one.unsolved_islands < other.unsolved_islands;

@@ -198,9 +198,8 @@ class IslandSolver {
   /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
   /// near rounding.
   static constexpr double even_enough = 1e-6;
-  /// Errors of a body are relative to this share of the velocities that the loads of the step or the warm start give to it
-  /// at least.
-  static constexpr double least_share = 0.01;
+  /// Of the velocity that the warm start gives to a body, too.
+  static constexpr double least_share = Problem::least_share;
   /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
   static constexpr std::size_t most_new = 10, most_colliding = 3;
   /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
@@ -214,14 +213,8 @@ class IslandSolver {
   /// load, to its rounding and to what it bore before: a structure that lost its support, and now falls freely, is solved.
   double start_newton(const Problem& problem, Impulses impulses) {
     return newton_.start(impulses, [&](std::uint32_t body) {
-      return std::max(least_share * borne_[body], least_scale(problem, body));
+      return std::max(least_share * borne_[body], problem.least_scale(body, tolerance_));
     });
-  }
-  /// The velocity that the errors of a body are relative to at least, by its loads and its rounding [m/s].
-  double least_scale(const Problem& problem, std::uint32_t body) const {
-    if (problem.load.empty()) return 0;
-    return std::max(double(problem.rounding[body]) / tolerance_,
-                    least_share * double(problem.load[body]));
   }
   /// Whether a contact closes without impulses by no more than rounding, or than a small share of what loads give.
   static bool hardly_closes(const Problem& problem, std::size_t c) {

@@ -54,7 +54,8 @@
 // grain against a wall gives it velocities of its own error times the ratio of the masses. Then the problem is solved
 // further, from there, and if that does not help, the step is not converged. In any case the impulses of the island are
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
-// thousandth of the largest of the island, or of a hundredth of what the loads of the step give its bodies, the step is as solved as it was. Problems without any restitution are treated in the same way.
+// thousandth of the largest of the island, or of a hundredth of what the loads of the step give its bodies, the step is as
+// solved as it was. Problems without any restitution are treated in the same way.
 // An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of the rounding of the
 // velocities of the bodies: bodies at rest, and those that touch and fall together, move less.
@@ -300,8 +301,9 @@ class RestitutionLimit {
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row free = problem.delassus.free_velocity(c);
       const double rest = 1 - double(island.rest_share());
-      island.largest_free = std::max(
-          {island.largest_free, double(linear<S>(free).norm()), least_velocity_scale(problem, c)});
+      island.largest_free = std::max(island.largest_free, double(linear<S>(free).norm()));
+      for (const std::uint32_t body : problem.delassus.bodies(c))
+        island.largest_free = std::max(island.largest_free, problem.least_scale(body, small));
       if (rest == 0) continue;
       const Row by_impulses = problem.delassus.velocity(c) - free;
       island.largest_change =
@@ -312,16 +314,6 @@ class RestitutionLimit {
       if (island.largest_change > 0)
         share = std::max(share, island.largest_change / island.largest_free);
     return share;
-  }
-  /// The velocity that errors of the bodies of a contact are relative to at least, as in IslandSolver [m/s].
-  static double least_velocity_scale(const Problem& problem, std::size_t c) {
-    constexpr double least_share = 0.01;
-    double least = 0;
-    if (!problem.load.empty())
-      for (const std::uint32_t body : problem.delassus.bodies(c))
-        least = std::max({least, double(problem.rounding[body]) / small,
-                          least_share * double(problem.load[body])});
-    return least;
   }
   /// Whether the impulses add energy in an island: with restitution any, without it energy that counts.
   MOREAU_INLINED bool gains(const Bodies<S>& bodies, const Problem& problem) {
