@@ -12,4 +12,18 @@
 #elif defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "moreau needs infinities and checks for NaN: compile without -ffast-math and -Ofast."
 #include "moreau needs infinities"
+#elif defined(__ASSOCIATIVE_MATH__)  // g++; clang++ does not tell
+#error \
+    "moreau needs sums in the order in which they stand: compile without -funsafe-math-optimizations and -fassociative-math."
+#include "moreau needs sums in their order"
+#elif !defined(__cpp_exceptions)
+#error "moreau throws exceptions: compile without -fno-exceptions."
+#include "moreau needs exceptions"
+#elif defined(EIGEN_DEFAULT_TO_ROW_MAJOR)
+#error "moreau needs matrices by columns: compile without EIGEN_DEFAULT_TO_ROW_MAJOR."
+#include "moreau needs matrices by columns"
 #endif
+
+static_assert(
+    0.1 != double(0.1f),
+    "moreau needs constants in double precision: compile without -fsingle-precision-constant.");
