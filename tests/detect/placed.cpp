@@ -55,7 +55,7 @@ void check_scans() {
       Eigen::Matrix<typename S::Scalar, Eigen::Dynamic, S::dim> matrix(count, S::dim);
       matrix.setZero();
       matrix.row(top).setConstant(1);
-      detail::Rows<S> rows;
+      detail::PointRows<S> rows;
       rows.assign(matrix, S::Matrix::Identity());
       const auto found = rows.farthest(S::Vector::Ones());
       CHECK(found.index == top);

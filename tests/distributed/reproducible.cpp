@@ -5,8 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "moreau/core/crc64.hpp"
 #include "moreau/distributed/reproducible_gauss_seidel.hpp"
-#include "moreau/io/detail/crc64.hpp"
 #include "moreau/io/snapshot.hpp"
 
 #include "distributed/worlds.hpp"
@@ -42,7 +42,8 @@ std::uint64_t hash_after(const std::string& start, int count, int steps, bool re
     }
   }
   // A snapshot ends with its own checksum: with it, the checksum would be the same for every state.
-  return crc64(std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t)));
+  return moreau::detail::crc64(
+      std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t)));
 }
 
 template <class World>

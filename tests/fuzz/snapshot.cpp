@@ -46,7 +46,7 @@ void put(std::string& bytes, std::size_t place, Number number) {
 void put_right(std::string& bytes) {
   put(bytes, 16, std::uint64_t(bytes.size()));
   const std::size_t end = bytes.size() - std::min(bytes.size(), sizeof(std::uint64_t));
-  put(bytes, end, crc64(std::string_view(bytes).substr(0, end)));
+  put(bytes, end, detail::crc64(std::string_view(bytes).substr(0, end)));
 }
 
 /// Changes, removes and repeats some of the bytes.

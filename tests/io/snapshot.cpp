@@ -40,7 +40,7 @@ std::string smallest() {
   archive.bytes.resize(sizeof head);
   head.size = sizeof head + sizeof(std::uint64_t);
   std::memcpy(archive.bytes.data(), &head, sizeof head);
-  archive.number(crc64(archive.bytes));
+  archive.number(detail::crc64(archive.bytes));
   return archive.bytes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts that are carried along (Tolerances::carry): as exact as the head of detail/carried_contact.hpp says, structures
+// Contacts that are carried along (Tolerances::carry): as exact as the head of detect/carried_contact.hpp says, structures
 // stand, and restart, threads and removed grains change no bit.
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <memory>
 #include <random>
 
+#include "moreau/detect/carried_contact.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/io/snapshot.hpp"
-#include "moreau/world/detail/carried_contact.hpp"
 
 #include "detect/shapes.hpp"
 #include "threads/same_bits.hpp"

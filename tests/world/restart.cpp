@@ -85,7 +85,7 @@ template <class Number>
 std::string with(std::string bytes, std::size_t place, Number number) {
   std::memcpy(&bytes[place], &number, sizeof number);
   const std::size_t end = bytes.size() - sizeof(std::uint64_t);
-  const std::uint64_t checksum = crc64(std::string_view(bytes).substr(0, end));
+  const std::uint64_t checksum = detail::crc64(std::string_view(bytes).substr(0, end));
   std::memcpy(&bytes[end], &checksum, sizeof checksum);
   return bytes;
 }
@@ -224,7 +224,7 @@ TEST_CASE("any flipped byte and any cut is refused") {
     CHECK(refusal(bytes.substr(0, k)).find(k > 0 ? "is truncated" : "is empty") !=
           std::string::npos);
   }
-  CHECK(crc64("123456789") == 0x995dc9bbdf1939fa);
+  CHECK(detail::crc64("123456789") == 0x995dc9bbdf1939fa);
 }
 
 TEST_CASE("a refusal says why") {

@@ -86,7 +86,7 @@ class PeriodicCell {
   }
   /// Whether the cell is a lattice, which set_vectors() has made.
   bool is_lattice() const { return is_lattice_; }
-  /// The vectors of the cell as columns, world axes [m]. Of a box they are parallel to the axes, and
+  /// The vectors of the cell as columns, world axes [m]. Those of a box are parallel to the axes, and
   /// zero along open axes.
   Value<Matrix> vectors() const {
     Matrix columns = vectors_;
@@ -116,7 +116,7 @@ class PeriodicCell {
           if (i == j) continue;
           const Vector one = reduced.col(i), other = reduced.col(j);
           const Scalar along = one.dot(other) / other.squaredNorm();
-          // Of two vectors of the same length, the one that is there stays.
+          // If two vectors have the same length, the present one is kept.
           if (!(std::abs(along) > Scalar(0.5) + Scalar(1e-3))) continue;
           reduced.col(i) = moreau::along(one, -std::round(along), other);
           again = changed = true;
@@ -136,7 +136,7 @@ class PeriodicCell {
     for (int k = 0; k < S::dim; ++k) shift[k] *= length_[k];
     return shift;
   }
-  /// The whole numbers of cells nearest to a displacement [m]; zero along open axes.
+  /// The whole numbers of cells nearest to a displacement [m], rounded to the nearest number; zero along open axes.
   Value<Vector> cells(const VectorArgument<S>& displacement) const {
     Vector numbers = Vector::Zero();
     const Vector parts =
@@ -146,7 +146,8 @@ class PeriodicCell {
         numbers[axis] = std::round(is_lattice_ ? parts[axis] : parts[axis] / length_[axis]);
     return numbers;
   }
-  /// The whole numbers of cells by which a point lies from the cell; 0 along open axes.
+  /// The whole numbers of cells by which a point x [m] lies from the cell, rounded down: 0 for a point in the cell. 0 along
+  /// open axes.
   Value<Vector> cell_of(const VectorArgument<S>& x) const {
     Vector numbers = Vector::Zero();
     const Vector parts = is_lattice_ ? product(inverse_, Vector(x - lower_)) : Vector(x - lower_);
@@ -165,7 +166,7 @@ class PeriodicCell {
   bool is_open() const { return length_.isZero(0); }  ///< whether no axis is periodic
   /// whether this axis is periodic (0 for x)
   bool is_periodic(int axis) const { return length_[axis] > 0; }
-  /// Lengths of a box along the axes [m]; zero along open axes. Of a lattice, the lengths of its vectors.
+  /// Lengths of a box along the axes [m]; zero along open axes. For a lattice, the lengths of its vectors.
   const Vector& length() const { return length_; }
   /// lower bounds along the axes [m]; zero along open axes; corner of a lattice
   const Vector& lower() const { return lower_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a class supports serialization: writing an object to a file and reading it back
-// (io/archive.hpp).
+// (core/archive.hpp).
 //
 // An aggregate with at most eight members, such as Tolerances, needs no code. A class with private
 // members lists the members once, for both directions:

@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "moreau/core/list.hpp"
-#include "moreau/detect/detail/rows.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/half_space.hpp"
 #include "moreau/shape/one_of.hpp"
 #include "moreau/shape/rounded.hpp"
 #include "moreau/shape/segment.hpp"
+#include "moreau/simd/point_rows.hpp"
 #include "moreau/simd/prefetch.hpp"
 
 namespace moreau {
@@ -105,7 +105,7 @@ class Placement<ShapeT> {
     load(shape.face_offsets());
     prefetch_rows();
   }
-  /// Begins to load what the narrow phase reads of most pairs. Of the offsets it reads one or two, but for a search.
+  /// Prefetches what the narrow phase reads for most pairs. The offsets are left out: only a search reads more than two.
   void prefetch_contact() const {
     vertices_.prefetch();
     normals_.prefetch();
@@ -119,9 +119,9 @@ class Placement<ShapeT> {
   const ShapeT& shape() const { return *shape_; }   ///< the shape that was placed
   const Vector& center() const { return center_; }  ///< the body's origin, world axes [m]
   /// The N vertices, relative to the centre, world axes [m].
-  const Rows<S>& vertices() const { return vertices_; }
+  const PointRows<S>& vertices() const { return vertices_; }
   /// The F face normals, unit, outward, world axes.
-  const Rows<S>& normals() const { return normals_; }
+  const PointRows<S>& normals() const { return normals_; }
   /// Signed distance of the plane of face f from the centre, along the face's normal [m].
   Scalar offset(std::size_t f) const { return offsets_[f]; }
   /// The offsets of all faces [m]. The array has normals().padded_size() elements.
@@ -150,7 +150,7 @@ class Placement<ShapeT> {
 
   const ShapeT* shape_ = nullptr;
   Vector center_ = Vector::Zero();
-  Rows<S> vertices_, normals_;
+  PointRows<S> vertices_, normals_;
   List<Scalar, detail::cache_line> offsets_;
 };
 

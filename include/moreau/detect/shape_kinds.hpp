@@ -11,30 +11,6 @@
 
 namespace moreau {
 
-/// Whether a shape is a Ball or a Disk.
-template <class ShapeT>
-inline constexpr bool is_ball = false;
-template <class S>
-inline constexpr bool is_ball<BallIn<S>> = true;
-
-/// Whether a shape is a Segment.
-template <class ShapeT>
-inline constexpr bool is_segment = false;
-template <class S>
-inline constexpr bool is_segment<Segment<S>> = true;
-
-/// Whether a shape is a Rounded shape.
-template <class ShapeT>
-inline constexpr bool is_rounded = false;
-template <class Core>
-inline constexpr bool is_rounded<Rounded<Core>> = true;
-
-/// Whether a shape is a OneOf.
-template <class ShapeT>
-inline constexpr bool is_one_of = false;
-template <class... Shapes>
-inline constexpr bool is_one_of<OneOf<Shapes...>> = true;
-
 /// A shape with narrow-phase functions of its own: neither a Rounded nor a OneOf, nor a Compound.
 template <class ShapeT>
 concept Elementary = !is_rounded<ShapeT> && !is_one_of<ShapeT> && !CompoundShape<ShapeT>;

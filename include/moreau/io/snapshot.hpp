@@ -40,10 +40,10 @@
 #include <utility>
 #include <vector>
 
+#include "moreau/core/archive.hpp"
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/crc64.hpp"
 #include "moreau/core/error.hpp"
-#include "moreau/io/archive.hpp"
-#include "moreau/io/detail/crc64.hpp"
 #include "moreau/io/detail/input_file.hpp"
 #include "moreau/io/output_file.hpp"
 #include "moreau/version.hpp"
@@ -235,7 +235,7 @@ MOREAU_COLD std::string snapshot(
   (transfer(archive, const_cast<More&>(more)), ...);
   head.size = archive.bytes.size() + sizeof(std::uint64_t);
   std::memcpy(archive.bytes.data(), &head, sizeof head);
-  archive.number(crc64(archive.bytes));
+  archive.number(detail::crc64(archive.bytes));
   return std::move(archive.bytes);
 }
 

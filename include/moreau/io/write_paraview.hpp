@@ -12,8 +12,8 @@
 #include "moreau/io/output_file.hpp"
 #include "moreau/io/vtk.hpp"
 #include "moreau/io/vtk_poly_data.hpp"
-#include "moreau/io/wall_surface.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/measure/wall_surface.hpp"
 #include "moreau/world/bond.hpp"
 
 namespace moreau {

@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/box_tree.hpp"
 #include "moreau/core/disjoint_sets.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
-#include "moreau/shape/box_tree.hpp"
 
 namespace moreau {
 

@@ -16,10 +16,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "moreau/core/box_tree.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/mesh/check_mesh.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
-#include "moreau/shape/box_tree.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 

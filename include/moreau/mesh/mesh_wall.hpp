@@ -27,11 +27,11 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/box_tree.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/mesh/check_mesh.hpp"
 #include "moreau/mesh/detail/tip_normals.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
-#include "moreau/shape/box_tree.hpp"
 
 namespace moreau {
 
@@ -308,7 +308,7 @@ void MeshWall<S>::set_ridges(const std::vector<Ridge<S>>& ridges) {
     ridges_.push_back({a.vertices, {of_a, of_b}, middle.normalized(), {a.facet, b.facet}});
   };
   for_each_ridge(ridges, [&](std::span<const Ridge<S>> at) {
-    // Of a surface, two facets join; with both sides, two pairs of them, or the two sides of a rim.
+    // On a surface with one side two facets join; with both sides, two pairs of facets, or the two sides of a rim.
     std::vector<unsigned char> is_paired(at.size(), 0);
     const auto pair_up = [&](const auto& fits) {
       for (std::size_t i = 0; i < at.size(); ++i)

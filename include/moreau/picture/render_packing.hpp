@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
-#include "moreau/detect/shape_kinds.hpp"
 #include "moreau/measure/force_chains.hpp"
 #include "moreau/mesh/surface_mesh.hpp"
 #include "moreau/picture/detail/drawing.hpp"
 #include "moreau/picture/detail/lighting.hpp"
+#include "moreau/shape/ball.hpp"
 #include "moreau/shape/one_of.hpp"
 
 namespace moreau::rendering {

@@ -17,7 +17,7 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
-#include "moreau/io/wall_surface.hpp"
+#include "moreau/measure/wall_surface.hpp"
 #include "moreau/picture/render_packing.hpp"
 
 namespace moreau {

@@ -86,4 +86,10 @@ using Ball = BallIn<Space<3, T>>;
 template <std::floating_point T = double>
 using Sphere [[deprecated("write Ball<T>, in the plane Disk<T>")]] = Ball<T>;
 
+/// Whether a shape is a Ball or a Disk.
+template <class ShapeT>
+inline constexpr bool is_ball = false;
+template <class S>
+inline constexpr bool is_ball<BallIn<S>> = true;
+
 }  // namespace moreau

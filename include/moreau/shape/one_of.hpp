@@ -94,4 +94,10 @@ class OneOf {
   std::variant<Shapes...> held_;
 };
 
+/// Whether a shape is a OneOf.
+template <class ShapeT>
+inline constexpr bool is_one_of = false;
+template <class... Shapes>
+inline constexpr bool is_one_of<OneOf<Shapes...>> = true;
+
 }  // namespace moreau

@@ -119,4 +119,10 @@ class Rounded {
   Moments<Space> moments_;
 };
 
+/// Whether a shape is a Rounded shape.
+template <class ShapeT>
+inline constexpr bool is_rounded = false;
+template <class Core>
+inline constexpr bool is_rounded<Rounded<Core>> = true;
+
 }  // namespace moreau

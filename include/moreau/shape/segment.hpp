@@ -61,4 +61,10 @@ class Segment {
   Scalar half_length_ = 0;
 };
 
+/// Whether a shape is a Segment.
+template <class ShapeT>
+inline constexpr bool is_segment = false;
+template <class S>
+inline constexpr bool is_segment<Segment<S>> = true;
+
 }  // namespace moreau

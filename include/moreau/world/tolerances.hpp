@@ -31,7 +31,7 @@ struct Tolerances {
   /// Relative motion of two polyhedra up to which the points of their contact stay where they are in the bodies, in
   /// place of being detected again, >= 0. 0: contacts are detected in every step, exactly. With more, normals are wrong by
   /// up to this over the radius, and points of a contact by up to this across the normal
-  /// (detail/carried_contact.hpp); points of a contact that lie within `resolution` of a line between two others are left
+  /// (detect/carried_contact.hpp); points of a contact that lie within `resolution` of a line between two others are left
   /// out. Of use for structures at rest where speed counts more than accuracy.
   double carry = 0;
 

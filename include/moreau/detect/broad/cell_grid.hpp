@@ -265,7 +265,7 @@ class CellGrid {
       look_into(row, range.from[0], range.to[0], entry, level, pairs);
     });
   }
-  /// Calls use(cell) for the first cell of every row of a range.
+  /// Calls use(cell) for the first cell of every row of a range. A row lies along the first axis. An empty range has no rows.
   template <class Use>
   static void for_each_row(const Range& range, const Use& use) {
     for (std::size_t k = 0; k < dim; ++k)

@@ -172,6 +172,8 @@ class ConvexPair {
   }
   /// Improves the axis, starting from the normal of a face of the polytope, by the iteration
   /// described at the top of this file.
+  /// @param face of the polytope that EPA has made inside b - a, world axes; its outward normal points against the axis
+  /// @returns gap [m], unit normal from a to b, and witness points, world axes
   SignedDistance<S> climb_from(const NearestFace<Vector>& face) const {
     Vector normal = -face.outward, witness = a_.center() + face.on_a, turn = Vector::Zero();
     T gap = separation(normal);

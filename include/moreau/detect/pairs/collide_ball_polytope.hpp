@@ -38,7 +38,7 @@ Extreme<typename SpaceOf<ShapeT>::Scalar> highest_face(const Placed<ShapeT>& sha
                                                        const typename SpaceOf<ShapeT>::Vector& x) {
   using T = typename SpaceOf<ShapeT>::Scalar;
   using Lanes = Wide<T>;
-  const auto point = Rows<SpaceOf<ShapeT>>::broadcast(x);
+  const auto point = PointRows<SpaceOf<ShapeT>>::broadcast(x);
   WideMaximum<T> best{Lanes::broadcast(-std::numeric_limits<T>::infinity()), Lanes::iota()};
   auto index = Lanes::iota();
   for (Eigen::Index i = 0; i < shape.normals().padded_size(); i += Lanes::lanes) {

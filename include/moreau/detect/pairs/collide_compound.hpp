@@ -41,7 +41,8 @@ void for_each_part(const Placed<ShapeT>& grain, Use&& use) {
 
 namespace detail {
 
-/// Calls use(v) for the vertices v of a feature of a polygon, whose faces are its edges.
+/// Calls use(v) for the vertices v of a feature of a polygon, a vertex or a face. Its faces are its edges; there is no
+/// FeatureKind::edge.
 template <std::floating_point T, class Use>
 void for_each_vertex(const Polygon<T>& polygon, FeatureKind kind, std::size_t feature, Use&& use) {
   use(feature);
@@ -113,7 +114,7 @@ bool is_end_inside(const Placed<ShapeT>& grain, std::uint32_t part,
   const auto farthest = placed.vertices().farthest(direction);
   auto others = grain.shape().seams().neighbours_at(part, farthest.index);
   if (others == 0) return false;
-  // Of a face that lies nearly across the direction, another vertex can touch.
+  // If a face lies nearly across the direction, another of its vertices can touch.
   placed.vertices().for_each_above(
       direction, farthest.value - T(seam_tolerance) * placed.radius(),
       [&](std::size_t v) { others &= grain.shape().seams().neighbours_at(part, v); });

@@ -191,7 +191,7 @@ class MeshCollision {
           nearest_on_facet(typename S::Matrix(side.corners.colwise() - pair_.center));
       const T distance = nearest.norm(), above = pair_.height(side);
       if (distance > least + pair_.near) continue;
-      // Of several facets that are nearest, the one that the centre sees under the largest angle counts.
+      // If several facets are nearest, the one with the largest height of the centre above its plane counts.
       if (distance >= least - pair_.near && std::abs(above) <= std::abs(highest)) continue;
       least = std::min(least, distance);
       highest = above;
@@ -216,7 +216,7 @@ class MeshCollision {
         gap_ = above_ - pair_.reach(-plane_->normal);
         if (gap_ > pair_.largest) return false;
       }
-      // Of a large face most facets have no other feature: touch_face() finds out which are near.
+      // Most facets of a large face have no other feature: touch_face() finds out which are near.
       if ((facet.is_plain && face.size() > 1) || take_features(facet))
         pair_.scratch.facets.push_back(facet);
     }

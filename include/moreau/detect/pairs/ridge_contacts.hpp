@@ -94,7 +94,10 @@ class RidgeContacts {
     T length2;           ///< of `along`, squared [m^2]
     T beyond;            ///< how far beyond an end an overlap counts, in lengths of the ridge [-]
   };
-  /// Whether a direction lies between the normals of the two facets of a ridge, to a tolerance [-].
+  /// Whether a direction lies in the normal cone of ridge r: between the normals of its two facets; at a rim, on the side away from the
+  /// facet. See ConvexRidge::beyond.
+  /// @param d         contact normal towards the grain, unit, axes of MeshPair::wall
+  /// @param tolerance sine of the largest angle outside of the cone [-]
   bool is_in_cone(std::uint32_t r, const Vector& d, T tolerance = MeshPair<ShapeT>::aligned) const {
     const auto& beyond = pair_.wall.ridge(r).beyond;
     return d.dot(beyond[0]) >= -tolerance && d.dot(beyond[1]) >= -tolerance;

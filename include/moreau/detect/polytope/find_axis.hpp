@@ -46,7 +46,7 @@ Extreme<T> best_edge(const Placed<Polygon<T>>& own, const Placed<Polygon<T>>& ot
   using Lanes = Wide<T>;
   WideMaximum<T> best{Lanes::broadcast(-std::numeric_limits<T>::infinity()), Lanes::iota()};
   auto index = Lanes::iota();
-  const auto apart = Rows<Space<2, T>>::broadcast(offset);
+  const auto apart = PointRows<Space<2, T>>::broadcast(offset);
   for (Eigen::Index i = 0; i < own.normals().padded_size(); i += Lanes::lanes) {
     const auto normals = own.normals().wide(i);
     best.take(other.vertices().lowest(normals) + own.normals().dot(i, apart) -

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/archive.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/io/archive.hpp"
 #include "moreau/motion/bodies.hpp"
 #include "moreau/world/bond.hpp"
 

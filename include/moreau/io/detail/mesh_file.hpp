@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common to the readers of mesh files: the words of a text, and the triangles that a file holds.
+// Common to the readers of mesh files: the words of a text, the integers of a binary file, and the triangles that a
+// file holds.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "moreau/core/error.hpp"
 #include "moreau/io/detail/parse_number.hpp"
 
 namespace moreau::detail {
@@ -167,6 +169,21 @@ class MeshWords {
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
 };
+
+/// An unsigned integer of a binary file. The bytes must reach to the end of the integer; this is not checked.
+/// @param begin         its first byte, in the file
+/// @param is_big_endian whether the byte of the highest value comes first
+template <class Unsigned>
+Unsigned unsigned_at(std::string_view bytes, std::size_t begin, bool is_big_endian = false) {
+  MOREAU_ASSERT(begin + sizeof(Unsigned) <= bytes.size());
+  Unsigned value = 0;
+  for (std::size_t k = 0; k < sizeof value; ++k) {
+    const auto byte =
+        static_cast<unsigned char>(bytes[begin + (is_big_endian ? sizeof value - 1 - k : k)]);
+    value = static_cast<Unsigned>(value | static_cast<Unsigned>(Unsigned{byte} << (8 * k)));
+  }
+  return value;
+}
 
 /// A word in lower case.
 inline std::string lower_case(std::string_view word) {

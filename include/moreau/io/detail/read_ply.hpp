@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "moreau/io/detail/mesh_file.hpp"
-#include "moreau/io/detail/read_stl.hpp"
 
 namespace moreau::detail {
 

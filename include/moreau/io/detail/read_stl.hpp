@@ -13,20 +13,6 @@
 
 namespace moreau::detail {
 
-/// A number of a binary file.
-/// @param begin    its first byte, in the file
-/// @param is_big   whether the byte of the highest value comes first
-template <class Unsigned>
-Unsigned unsigned_at(std::string_view bytes, std::size_t begin, bool is_big = false) {
-  Unsigned value = 0;
-  for (std::size_t k = 0; k < sizeof value; ++k) {
-    const auto byte =
-        static_cast<unsigned char>(bytes[begin + (is_big ? sizeof value - 1 - k : k)]);
-    value = static_cast<Unsigned>(value | static_cast<Unsigned>(Unsigned{byte} << (8 * k)));
-  }
-  return value;
-}
-
 constexpr std::size_t stl_header = 84, stl_triangle = 50;
 
 /// 80 bytes of text, the number of triangles, then for each its normal, its corners and 2 bytes.

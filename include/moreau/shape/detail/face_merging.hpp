@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/box_tree.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/sort_items.hpp"
 #include "moreau/core/space.hpp"
-#include "moreau/shape/box_tree.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
 #include "moreau/shape/detail/triangle_hull.hpp"
 

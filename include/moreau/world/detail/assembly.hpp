@@ -31,7 +31,7 @@
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/cylinder_wall.hpp"
 #include "moreau/shape/half_space.hpp"
-#include "moreau/world/detail/smallest_width.hpp"
+#include "moreau/shape/smallest_width.hpp"
 #include "moreau/world/wall_bodies.hpp"
 
 namespace moreau {

@@ -17,10 +17,10 @@
 #include "moreau/core/merge_join.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/detect/broad_phase.hpp"
+#include "moreau/detect/carried_contact.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/polyhedron.hpp"
-#include "moreau/world/detail/carried_contact.hpp"
 
 namespace moreau::detail {
 

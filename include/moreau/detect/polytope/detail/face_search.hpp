@@ -84,7 +84,7 @@ class WidePoints {
   using Point = std::array<typename Wide<T>::Values, 3>;
   explicit WidePoints(const PointSet<T>& points) {
     for (std::size_t k = 0; k < points.size(); ++k)
-      points_[k] = Rows<Space<3, T>>::broadcast(points[k]);
+      points_[k] = PointRows<Space<3, T>>::broadcast(points[k]);
   }
   const Point& operator[](std::size_t k) const { return points_[k]; }
 

@@ -90,6 +90,7 @@ ManifoldPoint<Space<3, T>> witness_point(const PolytopePair<Polyhedron<T>>& pair
   return {along(pair.a.center(), T(0.5), witness.on_a + witness.on_b), found.axis.gap,
           witness.feature};
 }
+/// The same in the plane.
 template <std::floating_point T>
 ManifoldPoint<Space<2, T>> witness_point(const PolytopePair<Polygon<T>>& pair,
                                          const FoundAxis<Space<2, T>>& found) {
@@ -105,13 +106,14 @@ ManifoldPoint<Space<2, T>> witness_point(const PolytopePair<Polygon<T>>& pair,
           FeatureKey(kind, axis.a, axis.b)};
 }
 
-/// The position of the witness point relative to the centre of a, world axes [m].
+/// The point midway between the witness points, relative to the centre of a, world axes [m].
 template <std::floating_point T>
 typename Space<3, T>::Vector witness_middle(const PolytopePair<Polyhedron<T>>& pair,
                                             const FoundAxis<Space<3, T>>& found) {
   const auto witness = witness_of(pair, found);
   return T(0.5) * (witness.on_a + witness.on_b);
 }
+/// The same in the plane.
 template <std::floating_point T>
 typename Space<2, T>::Vector witness_middle(const PolytopePair<Polygon<T>>& pair,
                                             const FoundAxis<Space<2, T>>& found) {

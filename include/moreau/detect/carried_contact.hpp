@@ -81,8 +81,9 @@ class CarriedContact {
         (now.apart - apart_).norm() + radius * std::sqrt(squared_distance(now.turn, turn_) / 2);
     return moved <= carry && margin + moved <= margin_;
   }
-  /// Fills the manifold with the points whose gap is at most the margin [m].
-  /// @returns whether there is one
+  /// Fills the manifold with the points whose gap is at most the margin [m]. holds() must be true.
+  /// @param out normal, class and points; without points if the function returns false
+  /// @returns whether there is a point
   bool write(const Placing& now, Scalar margin, Manifold<S>& out) const {
     out.start(product(now.axes_a, normal_), margin);
     out.contact_class = contact_class_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many vectors, stored for scans that use vector registers.
+// Many points or directions, stored for scans that use vector registers.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,13 +19,13 @@
 
 namespace moreau::detail {
 
-/// The rows of an N x D matrix, stored in tiles. Each tile has as many rows as a register has
+/// The rows of an N x D matrix, such as the vertices [m] or the normals of a polytope, stored in tiles. Each tile has as many rows as a register has
 /// lanes. In a tile the x of all its rows come first, then the y of all its rows, and so on. So a
 /// scan reads memory in order, and a single row lies on one or two cache lines. The last tile is
 /// filled up with copies of the first row, so that scans need no special case at the end. If
 /// several rows are equal, a scan reports the first of them, never a copy.
 template <class S>
-class Rows {
+class PointRows {
  public:
   using T = typename S::Scalar;
   using Lanes = Wide<T>;
@@ -172,7 +172,7 @@ class Rows {
     }
     return Lanes::maximum(widest)[0];
   }
-  /// The bounding box of the rows.
+  /// The bounding box of the rows, in their unit; there is at least one row.
   Aabb<S> bounding_box() const {
     Wides low, high;
     for (std::size_t k = 0; k < S::dim; ++k)

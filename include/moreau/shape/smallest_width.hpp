@@ -10,9 +10,9 @@
 
 namespace moreau::detail {
 
-/// The smallest width of a grain, relative to which overlaps at the start are deep: of a polytope the smallest one along the
-/// normal of a face, of a compound that of its thinnest part, of another shape the smallest extent of its box in body axes
-/// [m].
+/// The smallest width of a grain [m]. A step refuses overlaps at the start that are deep relative to it. For a polytope it is the smallest
+/// width along the normal of a face, for a compound that of its thinnest part, for another shape the smallest extent of its
+/// box in body axes.
 template <class ShapeT>
 typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
   using S = SpaceOf<ShapeT>;

@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace moreau {
-
-namespace detail {
+namespace moreau::detail {
 
 constexpr std::array<std::uint64_t, 256> make_crc64_table() {
   constexpr std::uint64_t polynomial = 0xc96c5795d7870f42;  // ECMA-182, bits in reversed order
@@ -21,8 +19,6 @@ constexpr std::array<std::uint64_t, 256> make_crc64_table() {
 }
 inline constexpr std::array<std::uint64_t, 256> crc64_table = make_crc64_table();
 
-}  // namespace detail
-
 /// The CRC-64/XZ checksum of bytes. The checksum of "123456789" is 0x995dc9bbdf1939fa. It detects
 /// every error that is confined to 64 consecutive bits.
 /// @param before checksum of the preceding bytes if `bytes` continues them; 0 at the beginning
@@ -30,8 +26,8 @@ inline constexpr std::array<std::uint64_t, 256> crc64_table = make_crc64_table()
 constexpr std::uint64_t crc64(std::string_view bytes, std::uint64_t before = 0) {
   std::uint64_t rest = ~before;
   for (const char byte : bytes)
-    rest = detail::crc64_table[(rest ^ static_cast<unsigned char>(byte)) & 0xff] ^ (rest >> 8);
+    rest = crc64_table[(rest ^ static_cast<unsigned char>(byte)) & 0xff] ^ (rest >> 8);
   return ~rest;
 }
 
-}  // namespace moreau
+}  // namespace moreau::detail

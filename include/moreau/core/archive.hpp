@@ -30,9 +30,9 @@
 #include <vector>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/crc64.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
-#include "moreau/io/detail/crc64.hpp"
 
 namespace moreau::detail {
 
