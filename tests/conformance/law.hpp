@@ -259,9 +259,77 @@ void bridging_law(const Law& law, typename S::Scalar radius) {
     }
 }
 
+/// Checks that solve_lanes of a law gives no impulse to lanes without a contact, and to contacts that cannot act in a step, whose b_n
+/// is infinite, whatever the memory and the contacts in the other lanes.
+template <class S, class Law>
+requires moreau::LaneLaw<Law, S>
+void lanes_without_impulse(const Law& law) {
+  using T = typename S::Scalar;
+  using Block = moreau::LaneBlockOf<Law, S>;
+  constexpr std::size_t lanes = moreau::LaneBlock<S>::Number::lanes;
+  std::mt19937_64 random(7);
+  const auto parameters = law.lane_parameters();
+  for (int i = 0; i < 100; ++i) {
+    Block block = Block::unit();
+    typename Block::Vector b{}, r{};
+    std::array<typename Block::Values, std::tuple_size_v<decltype(law.lane_parameters())>> wide{};
+    b[0] += T(1);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      if (l % 3 == 0) continue;  // a lane without a contact
+      const LocalProblem<S, Law> p(random);
+      block.set(l, p.block);
+      for (std::size_t d = 0; d < Block::rows; ++d) b[d][l] = p.velocity[Eigen::Index(d)];
+      for (std::size_t k = 0; k < parameters.size(); ++k) wide[k][l] = parameters[k];
+      if (l % 3 == 1) b[0][l] = std::numeric_limits<T>::infinity();
+    }
+    typename Block::Memory memory{};
+    for (int visit = 0; visit < 5; ++visit) {
+      r = Law::solve_lanes(block, b, r, wide, memory, visit == 4);
+      for (std::size_t l = 0; l < lanes; ++l)
+        for (std::size_t d = 0; d < Block::rows; ++d)
+          if (l % 3 == 2)
+            CHECK(std::isfinite(r[d][l]));
+          else
+            CHECK(r[d][l] == T(0));
+    }
+  }
+}
+
+/// Checks that natural_map_lanes of a law is its natural_map() in every lane.
+template <class S, class Law>
+requires moreau::MapsLanes<Law, S>
+void maps_lanes(const Law& law) {
+  using T = typename S::Scalar;
+  using Block = moreau::LaneBlock<S>;
+  using Vector = typename S::Vector;
+  std::mt19937_64 random(9);
+  std::normal_distribution<T> normal;
+  const auto parameters = law.lane_parameters();
+  std::array<typename Block::Values, std::tuple_size_v<decltype(law.lane_parameters())>> wide{};
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    wide[k] = Block::Number::broadcast(parameters[k]);
+  for (int i = 0; i < 300; ++i) {
+    typename Block::Vector u{}, r{};
+    std::vector<Vector> expected;
+    for (std::size_t l = 0; l < Block::Number::lanes; ++l) {
+      Vector of_u, of_r;
+      for (Eigen::Index d = 0; d < S::dim; ++d) {
+        u[std::size_t(d)][l] = of_u[d] = normal(random);
+        r[std::size_t(d)][l] = of_r[d] = normal(random);
+      }
+      expected.push_back(law.natural_map(of_u, of_r));
+    }
+    const typename Block::Vector map = Law::template natural_map_lanes<S>(u, r, wide);
+    for (std::size_t l = 0; l < Block::Number::lanes; ++l)
+      for (Eigen::Index d = 0; d < S::dim; ++d)
+        CHECK(std::abs(map[std::size_t(d)][l] - expected[l][d]) <=
+              T(64) * std::numeric_limits<T>::epsilon());
+  }
+}
+
 /// Checks that visits with solve_lanes of a law converge to the scalar solution in every lane. As in a
 /// solver, a visit subtracts the lane block times the impulse from the velocity under the impulse: for
-/// a law with couples the lane block stands for W.
+/// a law with couples the lane block stands for W. Checks lanes without an impulse, and natural_map_lanes(), too.
 /// @param visits of each problem
 template <class S, class Law>
 requires moreau::LaneLaw<Law, S>
@@ -303,6 +371,8 @@ void lane_law(const Law& law, int visits = 50) {
                                     (1 + double(exact[l].norm())));
   }
   CHECK(worst < 1e6 * double(std::numeric_limits<T>::epsilon()));
+  lanes_without_impulse<S>(law);
+  if constexpr (moreau::MapsLanes<Law, S>) maps_lanes<S>(law);
 }
 
 }  // namespace conformance

@@ -2,9 +2,11 @@
 // Wrong settings that give results which look right are reported.
 #include "moreau/measure/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "moreau/law/compliant.hpp"
@@ -295,6 +297,56 @@ TEST_CASE_TEMPLATE("check: numbers in other units, and gravity of the wrong sign
   for (const double angle : {5.0, 20.0, 30.0, 45.0})
     CHECK(says({.friction = angle}, "looks like an angle in degrees"));
   CHECK(says({.friction = 30}, "its tangent is 0.57735"));
+}
+
+namespace {
+
+/// Coulomb's law with an attraction A / (1 + gap / D), which ends nowhere.
+template <class T>
+struct Sticky : SignoriniCoulomb<T> {
+  explicit Sticky(T adhesion) : SignoriniCoulomb<T>(T(0.5)), adhesion_(adhesion) {}
+  T attraction(T gap) const { return adhesion_ / (1 + std::max(gap, T(0)) / T(0.001)); }
+  Sticky variant(std::size_t) const { return *this; }
+
+ private:
+  T adhesion_;
+};
+template <class T>
+struct StickyInRange : Sticky<T> {
+  using Sticky<T>::Sticky;
+  T range() const { return T(0.003); }
+  StickyInRange variant(std::size_t) const { return *this; }
+};
+/// Two balls at rest without gravity, `apart` [m] from surface to surface.
+/// @returns what check() says after the first step, and the relative velocity along the line of the centres [m/s]
+template <class LawT, class S>
+std::pair<std::vector<std::string>, double> two_balls(const LawT& law, double apart) {
+  using T = typename S::Scalar;
+  Simulation<BallIn<S>, LawT> world(T(0.02), Materials<LawT>(1, law));
+  const ShapeId ball = world.add_shape(BallIn<S>(T(0.01)));
+  std::vector<BodyId> pair;
+  for (const double side : {-0.5, 0.5}) {
+    Pose<S> pose;
+    pose.position = T(side * (0.02 + apart)) * S::Vector::UnitX();
+    pair.push_back(world.add_grain(ball, pose, T(2000)));
+  }
+  const StepReport report = world.step(T(1e-4));
+  return {check(world, report), double(world.velocity(pair[1])[0] - world.velocity(pair[0])[0])};
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("check: an attraction that the margin cuts off, and its range()", S,
+                   MOREAU_TYPES((Space<3>, Space<2, float>), (Space<2>, Space<3, float>))) {
+  using T = typename S::Scalar;
+  const auto cut = two_balls<Sticky<T>, S>(Sticky<T>(T(0.1)), 0.001);
+  CHECK(one_contains(cut.first, "a law attracts with "));
+  CHECK(one_contains(cut.first, "Give the law a function range()"));
+  CHECK(cut.second == 0);  // the margin is 0.0004 m
+  const auto whole = two_balls<StickyInRange<T>, S>(StickyInRange<T>(T(0.1)), 0.001);
+  CHECK(!one_contains(whole.first, "a law attracts with "));
+  CHECK(whole.second < 0);
+  CHECK(!one_contains(two_balls<Sticky<T>, S>(Sticky<T>(0), 0.001).first, "a law attracts with "));
 }
 
 TEST_CASE_TEMPLATE("check: gravity along the last axis is right where something lies there", ShapeT,

@@ -81,6 +81,7 @@ using S = Space<3>;
 
 static_assert(SetValuedLaw<SignoriniCoulomb<>, S> && SetValuedLaw<Frictionless<>, S>);
 static_assert(PointLaw<Cohesive<>, S> && AttractiveLaw<Cohesive<>, S>);
+static_assert(AttractsInRange<Cohesive<>, S> && !AttractsInRange<Bonded<>, S>);
 static_assert(BridgingLaw<Bridged<CapillaryBridge<>>, S> &&
               BridgingLaw<Bridged<LinearCohesion<>>, S>);
 static_assert(BondingLaw<Bonded<>, S> && RollingLaw<Bonded<>, S> && LaneLaw<Bonded<>, S>);
@@ -88,6 +89,7 @@ static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
 static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);
 static_assert(CoulombLaw<SignoriniCoulomb<>, S> && CoulombLaw<Frictionless<>, S>);
+static_assert(FrictionLaw<RollingResistance<>> && RestitutionLaw<RollingResistance<>>);
 static_assert(StatefulLaw<SignoriniCoulomb<>, S> && LaneLaw<SignoriniCoulomb<>, S> &&
               MapsLanes<SignoriniCoulomb<>, S>);
 static_assert(StaticFrictionLaw<SignoriniCoulomb<>, S> && !StaticFrictionLaw<Bonded<>, S>);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Contact laws and integrators: those of the library, and archetypes of those that a user may
 // write.
+#include "moreau/world/detail/policies.hpp"
+
 #include <span>
 
 #include "moreau/law/cohesive.hpp"
@@ -106,6 +108,27 @@ struct Sticky : archetypes::MinimalLaw {
   double attraction(double gap) const;
 };
 static_assert(moreau::detail::Attracts<Sticky> && !moreau::detail::Attracts<HasFriction>);
+static_assert(moreau::AttractiveLaw<Sticky, Space<3>> &&
+              !moreau::AttractsInRange<Sticky, Space<3>>);
+static_assert(moreau::AttractsInRange<moreau::Cohesive<>, Space<2>>);
+static_assert(moreau::FrictionLaw<HasFriction> && !moreau::FrictionLaw<Sticky>);
+static_assert(moreau::RestitutionLaw<moreau::Frictionless<float>> &&
+              !moreau::RestitutionLaw<Sticky>);
+/// Functions that are not const, or of another type, are none of these concepts, and no Simulation compiles with them.
+struct Changes : archetypes::MinimalLaw {
+  double attraction(double gap);
+  double range();
+  double friction();
+  double restitution();
+  double normal_compliance();
+  bool is_bridged(std::size_t k);
+};
+using Names = moreau::detail::NamesOf<Changes, Space<3>>;
+static_assert(Names::attraction && Names::range && Names::friction && Names::restitution &&
+              Names::springs && Names::bridges && Names::changing_friction);
+static_assert(!moreau::AttractiveLaw<Changes, Space<3>> && !moreau::FrictionLaw<Changes> &&
+              !moreau::RestitutionLaw<Changes>);
+static_assert(moreau::detail::Attracts<Changes> && moreau::detail::HasSprings<Changes>);
 
 struct LeaksExpression : archetypes::MinimalLaw {
   auto natural_map(const S::Vector& velocity, const S::Vector& impulse) const {

@@ -193,6 +193,84 @@ const moreau::Simulation<moreau::Ball<>, Law> world(
     1, moreau::Materials<Law>(1, Law(moreau::SignoriniCoulomb<>(0.4))));
 #endif  // attraction_where_gaps_close
 
+#ifdef range_that_is_not_const
+// A range of the attraction that is not const: the attraction would end at the margin.
+// expect: Law has range\(\), but is no AttractsInRange
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::Cohesive<> {
+  double range() EITHER(, const) { return 0.1; }
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
+#endif  // range_that_is_not_const
+
+#ifdef range_of_another_scalar
+// A range of the attraction in another scalar.
+// expect: Law has range\(\), but is no AttractsInRange
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::Cohesive<> {
+  EITHER(float, double) range() const { return 0.1f; }
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
+#endif  // range_of_another_scalar
+
+#ifdef attraction_that_is_not_const
+// An attraction that is not const: the law would have none.
+// expect: Law has attraction\(\), but is no AttractiveLaw
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::SignoriniCoulomb<> {
+  double attraction(double) EITHER(, const) { return 0.1; }
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
+#endif  // attraction_that_is_not_const
+
+#ifdef friction_that_is_not_const
+// A friction that is not const.
+// expect: friction\(\) of Law must be const
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::SignoriniCoulomb<> {
+  double friction() EITHER(, const) { return 0.5; }
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
+#endif  // friction_that_is_not_const
+
+#ifdef variant_that_is_not_const
+// Variants that are not const: the law would have one.
+// expect: Law has variant\(\), but is no StatefulLaw
+#include "moreau/law/cohesive.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Law : moreau::SignoriniCoulomb<> {
+  static constexpr std::size_t variants = 2;
+  Law variant(std::size_t) EITHER(, const) { return *this; }
+  std::size_t variant_after(std::size_t, const Eigen::Vector3d&) const { return 0; }
+};
+const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
+#endif  // variant_that_is_not_const
+
+#ifdef restitution_that_is_not_const
+// A restitution that is not const: the springs would take it for 0.
+// expect: restitution\(\) of Law must be const
+#include "moreau/law/compliant.hpp"
+
+struct Law : moreau::SignoriniCoulomb<> {
+  double restitution() EITHER(, const) { return 0.5; }
+};
+const moreau::Compliant<Law> soft(Law(), 1e6);
+#endif  // restitution_that_is_not_const
+
 #ifdef cohesive_bridges
 // Bridges, and an attraction at every contact beside them.
 // expect: Cohesive<Law>: Law has an attraction of its own

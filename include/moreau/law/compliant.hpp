@@ -33,7 +33,7 @@
 // (g / h, -c_t s_t) is added. An error of the solver in one step acts as a force in the next, because the memory of
 // the springs is the impulses and the gap; errors do not add up.
 //
-// If the step changes, from h' to h, the springs must follow what the bodies have moved. With the parameter theta of the
+// If the step changes, from h' to h, the springs must follow the motion of the bodies. With the parameter theta of the
 // integrator (motion/moreau_jean.hpp) contacts are detected where the bodies are the time a = (1 - theta) h after the start of
 // the step. If u' is the velocity after the step before, and u that before this one (the same, unless it was set), the contact
 // moves between the two detections by (h' - a') u' + a u, and its springs have followed h' u'. The difference
@@ -50,9 +50,9 @@
 //     -x^2 (k y^2 + m v^2) / 2 + k y d + k d^2 / 2.
 //
 // If |a - a'| is at most h' / 2, this is not positive for any y and v if x >= 1 / sqrt(3); steps with a smaller x resolve the
-// oscillation of the spring. So a is at most a' + h' / 2, which a step that grows to more than its double meets by a larger theta,
-// once. As a' is at most h' / 2, a step that shrinks meets it anyway. Bodies that no impulse moves are put where the theta leads them
-// that was set, so that flight keeps its order.
+// oscillation of the spring. The library therefore requires a <= a' + h' / 2. If h is more than twice h', theta is larger in this one
+// step so that the condition is satisfied. A step that shrinks satisfies it, because a' is at most h' / 2. Bodies that no impulse moves get
+// the position that belongs to the theta of the user, so that free flight keeps its order.
 //
 // With restitution e > 0 a contact acts only where g <= 0 and the memory of the normal spring is the
 // impulse, like that of the tangential one:
@@ -65,9 +65,10 @@
 // If the number of contact points of the pair changes, and with it C, all entries of s are multiplied by
 // sqrt(C before / C), so that the springs keep their energy. With e = 0 the tangential springs keep their force.
 //
-// Of a law that attracts by the force T, r and s are those of p = r + h T n (world/detail/pushes.hpp): the springs bear
-// the push against the attraction. Springs of a bond have no memory of impulses but are as long as the bond is stretched
-// (world/detail/bond_list.hpp), and when it breaks they leave nothing to the contact of its pair.
+// Under a law that attracts with the force T, p = r + h T n takes the place of r, and s is that of p
+// (world/detail/pushes.hpp): the springs carry the push against the attraction. The spring force of a bond follows from the
+// stretch of the bond (world/detail/bond_list.hpp), not from an impulse of the step before. When the bond breaks, the energy of
+// its springs is dissipated, and the contact of its pair starts without load.
 //
 // Source of springs as a regularization with one diagonal matrix for stiffness and step: C.
 // Lacoursiere, Ghosts and Machines: Regularized Variational Methods for Interactive Simulations of
@@ -88,7 +89,8 @@
 namespace moreau {
 namespace detail {
 
-/// Arguments that make no Made, a law in springs: neither another Made nor a law and one or two stiffnesses.
+/// Arguments of which no Made (a law with springs) can be constructed: neither another Made nor a law and one or two
+/// stiffnesses.
 template <class First, class Made, class Law, class Scalar, class... More>
 concept NoLawAndStiffness =
     !std::derived_from<First, Made> && (sizeof...(More) == 0 || sizeof...(More) > 2 ||
@@ -114,6 +116,9 @@ class Compliant : public Law {
   static_assert(
       detail::GivesImpulses<Law, Scalar>,
       "Compliant<Law>: Law gives no impulses (velocity_offset) in the scalar of Compliant");
+  static_assert(
+      RestitutionLaw<Law> || !requires(Law & law) { law.restitution(); },
+      "Compliant<Law>: restitution() of Law must be const and return a number");
 
  public:
   /// @param law                  the law in series with the springs
@@ -144,7 +149,7 @@ class Compliant : public Law {
   Scalar tangential_compliance() const { return 1 / tangential_; }  ///< C_t [m/N]
   /// Whether the law has a restitution; see CompliantLaw.
   bool keeps_normal_impulse() const {
-    if constexpr (requires(const Law& law) { law.restitution(); })
+    if constexpr (RestitutionLaw<Law>)
       return Law::restitution() > 0;
     else
       return false;

@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The requirements of the solvers on a contact law. A team calls the functions of a law from several
-// threads at once: they must not change the law.
+// What a contact law must offer, and what it may offer: the required functions are those of SetValuedLaw, or of
+// RegularizedLaw (regularized.hpp). Each optional function belongs to one of the concepts below:
+//
+// | function or member | concept | without it |
+// |---|---|---|
+// | rolls | Rolls | the impulse has no couple |
+// | ActsWhereGapsClose | ActsWhereGapsClose | all pairs within the margin have contacts |
+// | is_coulomb | CoulombLaw | no direct method for islands, no ProximalFallback, no gather_problem |
+// | friction() | FrictionLaw | no CoulombLaw; check() does not judge the friction |
+// | restitution() | RestitutionLaw | Compliant<Law> takes e = 0 |
+// | variants, variant(k), variant_after(k, impulse) | StatefulLaw | one variant |
+// | has_static_friction(), variant_at_rest(k) | StaticFrictionLaw | variant_after() alone decides |
+// | attraction(gap) | AttractiveLaw | no attraction |
+// | range() | AttractsInRange | attraction() is not asked beyond Tolerances::margin: pairs have no contacts there |
+// | reach(), is_bridged(k), with_bridge(k, bridged), bridge_force(gap, radius) | BridgingLaw | no bridges |
+// | is_bonded(k), strength(), yields(p), yielding(p, w), softening(w) | BondingLaw | no bonds |
+// | normal_compliance(), tangential_compliance(), keeps_normal_impulse() | CompliantLaw | rigid contacts |
+// | tangential_share(gap, before) | TangentialRestitutionLaw | no restitution across the normal |
+// | lane_parameters(), solve_lanes(..) | LaneLaw | solve() lane after lane |
+// | natural_map_lanes(..) | MapsLanes | natural_map() contact by contact |
+//
+// A team calls the functions of a law from several threads at once: they must be const or static. A Simulation does not
+// compile with a law that has one of these functions with another signature (world/detail/policies.hpp).
 #pragma once
 
 #include <array>
@@ -30,9 +51,11 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// materials. u and r are rows of the operator: along the normal, then along the tangents that its block chooses
 /// (BodyDelassus::frame()); u_n > 0 separates, r_n > 0 pushes.
 ///
-/// - velocity_offset(gap, before, h): the offset [m/s] in 0 <= u_n + offset _|_ r_n >= 0. gap [m],
-///   before = u_n before the step [m/s], h the step [s]. Infinite if the contact cannot act in this
-///   step.
+/// - velocity_offset(gap, before, h): the offset [m/s] in 0 <= u_n + offset _|_ r_n >= 0. gap [m] after the overlap
+///   correction, before = u_n before the step [m/s], h the step [s]. Infinite if the contact cannot act in this
+///   step. In single precision the gap is 0 where it is smaller than the rounding of the positions; it is 0 where a contact with
+///   restitution closes together with others (world/detail/closing_contacts.hpp). The chords of curved paths are subtracted from before. The
+///   function is called again with before = 0, for the offset without restitution.
 /// - solve(block, b, guess): the exact impulse [N s] with u = W r + b and the law. b [m/s] is the
 ///   relative velocity without impulse, with the offset; guess is an impulse to start from.
 /// - natural_map(u, r): r - P_K(r - u'), zero if and only if (u, r) satisfies the law; u and r in
@@ -43,8 +66,7 @@ using BlockOf = std::conditional_t<Rolls<L>, RollingBlock<S>, LocalBlock<S>>;
 /// A law with `static constexpr bool rolls = true` has a couple beside the force: block, u, r and b
 /// are those of a RollingBlock, with D + A rows, rolling and twisting last.
 ///
-/// Optional: see ActsWhereGapsClose, AttractiveLaw, BondingLaw, BridgingLaw, CompliantLaw, CoulombLaw,
-/// TangentialRestitutionLaw, StatefulLaw, StaticFrictionLaw, LaneLaw, MapsLanes.
+/// Optional functions: the table in the head of this file.
 template <class L, class S>
 concept SetValuedLaw = std::copyable<L> &&
     requires(const L law, const BlockOf<L, S> block, typename BlockOf<L, S>::Vector vector,
@@ -92,13 +114,29 @@ concept PointLaw = SetValuedLaw<L, S> && !Rolls<L>;
 template <class L, class S>
 concept RollingLaw = SetValuedLaw<L, S> && Rolls<L>;
 
+/// A law with a coefficient of friction. check() warns about a coefficient from 5 to 90, which looks like an angle in degrees.
+///
+/// - friction(): mu [-]
+template <class L>
+concept FrictionLaw = requires(const L law) {
+  { law.friction() } -> std::convertible_to<double>;
+};
+
+/// A law with a coefficient of restitution. Compliant<Law> asks for it: the springs of a law with e > 0 keep their normal
+/// impulse from step to step.
+///
+/// - restitution(): e [-]
+template <class L>
+concept RestitutionLaw = requires(const L law) {
+  { law.restitution() } -> std::convertible_to<double>;
+};
+
 /// A law whose local problem is Coulomb's law with the coefficient friction(), so that matrices and
 /// coefficients of friction define the contact problem, and other methods than its solve() may solve it. It says so by
 /// `static constexpr bool is_coulomb = true`. A law that derives from one is one unless it has a solve()
 /// of its own.
 template <class L, class S>
-concept CoulombLaw = PointLaw<L, S> && requires(const L law) {
-  { law.friction() } -> std::convertible_to<double>;
+concept CoulombLaw = PointLaw<L, S> && FrictionLaw<L> && requires {
   requires L::is_coulomb;
   requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::friction))>;
 };
@@ -127,29 +165,32 @@ requires requires(const L law) {
 struct ImpulseScalar<L> {
   using type = decltype(std::declval<const L&>().velocity_offset(0., 0., 0.));
 };
-/// A law with springs in series, in any scalar.
+/// A law with springs in series, in any scalar. Here and below, functions that are not const by mistake count, too.
 template <class L>
-concept HasSprings = requires(const L law) {
+concept HasSprings = requires(L& law) {
   law.normal_compliance();
 };
 /// A law with bridges or bonds, or with an attraction at every contact.
 template <class L>
-concept Attracts = requires {
-  L::is_bridged(std::size_t{});
+concept Attracts = requires(L& law) {
+  law.is_bridged(std::size_t{});
 }
-|| requires {
-  L::is_bonded(std::size_t{});
+|| requires(L& law) {
+  law.is_bonded(std::size_t{});
 }
-|| requires(const L law) {
+|| requires(L& law) {
   law.attraction(0.f);
 };
 }  // namespace detail
 
 /// A law that depends on what the contact did in the step before, such as static friction.
 ///
-/// - variants: number of its variants; variant(k), k < variants: the law of a step. A new contact has k = 0.
+/// - variants: number of its variants
+/// - variant(k), k < variants: the law whose solve(), natural_map(), friction() and lanes a contact with this k uses in the step. Its
+///   velocity_offset(), attraction, compliances and tangential_share() are not used: they are those of the law in
+///   Materials, the same for all variants. A new contact has k = 0.
 /// - variant_after(k, impulse): the k of the next step, from the k of this step and the impulse that
-///   solves variant(k) [N s], a row of the operator as in solve()
+///   solves variant(k) [N s]. These are the first D rows of the impulse of solve(): the couple of a law with couples is not passed
 template <class L, class S>
 concept StatefulLaw = SetValuedLaw<L, S> &&
     requires(const L law, typename S::Vector impulse, std::size_t k) {
@@ -191,13 +232,22 @@ concept BondingLaw = StatefulLaw<L, S> && Rolls<L> &&
 };
 
 /// A law whose bodies attract each other: with the force attraction(gap) [N] at each contact, through a bridge, or
-/// through a bond. Its local problem is
-/// that of the push against the attraction, see cohesive.hpp.
+/// through a bond. Its local problem is that of the push against the attraction, see cohesive.hpp. attraction() is called for gaps up
+/// to the margin (Tolerances::margin), and for gaps up to range() if the law is AttractsInRange with a finite range. Beyond, the bodies do not
+/// attract each other, whatever attraction() would return; check() warns if that is not 0.
 template <class L, class S>
 concept AttractiveLaw = BridgingLaw<L, S> || BondingLaw<L, S> ||
     (SetValuedLaw<L, S>&& requires(const L law, typename S::Scalar gap) {
       { law.attraction(gap) } -> std::same_as<typename S::Scalar>;
     });
+
+/// An attraction that ends at a gap of its own, also beyond the margin: contacts are detected up to this gap.
+///
+/// - range(): the largest gap with an attraction [m]; infinite: the attraction ends at the margin
+template <class L, class S>
+concept AttractsInRange = AttractiveLaw<L, S> && requires(const L law) {
+  { law.range() } -> std::same_as<typename S::Scalar>;
+};
 
 /// A law with springs in series, see compliant.hpp.
 ///
@@ -225,7 +275,8 @@ concept TangentialRestitutionLaw = PointLaw<L, S> &&
 /// variant_after() the simulation gives contacts that do not slide the variant at rest; world/detail/sliding_points.hpp has the
 /// conditions.
 ///
-/// - has_static_friction(): whether the variants of contacts that slide and that do not slide differ; false costs nothing
+/// - has_static_friction(): whether the variants of contacts that slide and that do not slide differ; if not, the simulation
+///   does not test which contacts slide
 /// - variant_at_rest(k), k < variants: k if the contact does not slide in variant k, otherwise the variant of the same
 ///   contact that does not
 template <class L, class S>
@@ -253,9 +304,14 @@ using LaneBlockOf = std::conditional_t<Rolls<L>, RoundBlock<S>, LaneBlock<S>>;
 ///
 /// - lane_parameters(): an array of the parameters of the local problem, in units of the law
 /// - solve_lanes(block, b, guess, parameters, memory, polish): in every lane solve(), or one step
-///   of an iteration whose only fixed point is solve(). memory is for the law's own use: one number per
-///   contact, two if the contact has couples, 0 at first, kept from visit to visit. If polish is set,
-///   the impulse lies in the cone to rounding.
+///   of an iteration whose only fixed point is solve(). block is a LaneBlockOf<Law, S>; its numbers, and those of b, guess
+///   and the parameters, are vector types of the compiler (LaneBlock<S>::Values) with the operators + - * / < > ?:, one contact per
+///   lane. memory is for the law's own use: one number per
+///   contact, two if the contact has couples. It is 0 when a solve begins (a solve may be attempted twice), stays from visit to
+///   visit, and is not kept after the solve. If polish is set, the impulse lies in the cone to rounding.
+///
+///   b_n of a contact that cannot act is infinite: its impulse must be 0. A lane without a contact has W = 1, b_n = 1, zero
+///   tangential components and parameters 0: its impulse must be 0, too. No lane may become NaN.
 template <class L, class S>
 concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<L, S> block,
                                                  const typename LaneBlockOf<L, S>::Vector vector,
@@ -272,7 +328,8 @@ concept LaneLaw = SetValuedLaw<L, S> && requires(const L law, const LaneBlockOf<
 
 /// A LaneLaw that is Coulomb's, with natural_map() of one contact per lane:
 ///
-/// - natural_map_lanes<S>(u, r, parameters): in every lane natural_map(u, r)
+/// - natural_map_lanes<S>(u, r, parameters): in every lane natural_map(u, r). Without this function the residual is computed contact
+///   by contact
 template <class L, class S>
 concept MapsLanes = LaneLaw<L, S> && CoulombLaw<L, S> &&
     requires(const L law, const typename LaneBlock<S>::Vector vector) {

@@ -17,7 +17,7 @@ template <class S>
 struct ContactMotion {
   typename S::Scalar gap;       ///< [m], < 0 is penetration
   typename S::Vector velocity;  ///< of b against a at the point; u_n > 0 separates [m/s]
-  /// Mass that the point bears [kg]. Of two balls it is 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall. At a
+  /// Effective mass of the point [kg]. For two balls it is 1 / (1/m_a + 1/m_b), with 1/m = 0 for a wall. At a
   /// vertex of a grain it is smaller, because the grain can turn. n points of a face that lands flat
   /// have 1/n of it each, so that a dashpot 2 beta sqrt(k m) has the damping ratio beta for the face, too.
   /// contact/effective_mass.hpp has the definition.

@@ -99,7 +99,7 @@ class RollingResistance {
                                          const typename RollingBlock<S>::Vector& guess) const {
     using Vector = typename RollingBlock<S>::Vector;
     if (b[0] >= T(0)) return Vector::Zero();
-    // In units of the velocity and of the block: squares of small velocities and of small and large impulses are no numbers.
+    // In units of the velocity and of the block: squares of small velocities and of small and large impulses cannot be represented.
     const T unit = b.cwiseAbs().maxCoeff(), mass = reciprocal_power(block.trace());
     RollingBlock<S> scaled = block;
     scaled *= mass;

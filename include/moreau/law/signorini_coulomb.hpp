@@ -105,7 +105,7 @@ class SignoriniCoulomb {
   template <class Vector>
   std::size_t variant_after(std::size_t k, const Vector& impulse) const {
     if (static_ == friction_ || !(impulse[0] > T(0))) return 0;
-    // Relative to the normal impulse: squares of small and of large impulses are no numbers.
+    // Relative to the normal impulse: squares of small and of large impulses cannot be represented.
     const T share = (impulse.template tail<Vector::RowsAtCompileTime - 1>() / impulse[0]).norm();
     const T limit = k == 0 ? static_ : friction_;
     return share >= limit * (T(1) - std::sqrt(std::numeric_limits<T>::epsilon())) ? 1 : 0;

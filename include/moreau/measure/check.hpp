@@ -62,6 +62,7 @@ class SentencesOnce {
 ///            12 (2.7 g/cm^3 are 2700 kg/m^3), grains all wider than 4 m (mm). A density above 25,000, a
 ///            gravity of 981 or 9810 (cm/s^2, mm/s^2), a friction from 5 to 90 (degrees). A step so
 ///            long that gravity moves a grain at rest by more than a fifth of its size (ms)
+///          - an attraction is not 0 at the margin of detection, where it ends, and its law has no function range()
 ///          - gravity points along the last axis, or along another one that is not periodic, and no wall and no obstacle
 ///            lies there
 ///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass; the motion of all

@@ -115,7 +115,7 @@ class CoulombLanes {
         inverse_unit_(inverse_unit_of(block)) {}
 
   /// What impulses are multiplied by before they are squared: 1, and w_nn in single precision, where squares of the impulses
-  /// of grains of 1e-6 m or 1e4 m are no numbers.
+  /// of grains of 1e-6 m or 1e4 m cannot be represented.
   static Values unit_of(const Block& block) {
     if constexpr (fine)
       return Lanes::broadcast(1);

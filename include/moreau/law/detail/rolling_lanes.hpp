@@ -16,8 +16,8 @@
 // normal impulse does not depend on the couple: a visit lowers a convex function of r_t and m over their
 // two discs, whose only minimum is the solution.
 //
-// A visit takes the contact as rolling if m was shortened in the last visit. So the solution is the only
-// fixed point: a contact that is taken wrongly is taken rightly in the next visit.
+// A visit classifies the contact as rolling if m was shortened in the last visit. So the solution is the only
+// fixed point: a contact that is classified wrongly is classified correctly in the next visit.
 #pragma once
 
 #include <cstddef>

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The part of check() that looks for numbers in other units than SI, and for gravity that is missing or has the wrong
-// sign.
+// The part of check() that looks for numbers in other units than SI, for an attraction that the margin cuts off, and for
+// gravity that is missing or has the wrong sign.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
-#include "moreau/detect/placed.hpp"
+#include "moreau/law/concepts.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/shape/circumradius.hpp"
+#include "moreau/shape/smallest_width.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
@@ -23,7 +24,7 @@ namespace moreau::detail {
 /// are obstacles: their mass has no effect, and their size can be that of a machine.
 struct Extremes {
   double width = std::numeric_limits<double>::infinity();  ///< smallest circumdiameter [m]
-  /// Smallest width of the box of a grain in body axes [m]; only if all circumdiameters are far above the grain size.
+  /// Smallest width of a grain, smallest_width() [m]; only if all circumdiameters are far above the grain size.
   double thickness = 0;
   double density = std::numeric_limits<double>::infinity();  ///< smallest [kg/m^3]
   double heaviest = 0;                                       ///< largest density [kg/m^3]
@@ -34,7 +35,7 @@ struct Extremes {
 
 [[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
   const bool earth = of.gravity > 9 && of.gravity<11, grains = of.heaviest> 0;
-  // Of a plate or a stick any length between thickness and diameter will do, also among larger grains.
+  // For a plate or a stick any length between thickness and diameter is accepted, also among larger grains.
   const bool fits = of.width > 0.2 * size && (of.width < 5 * size || 0.999 * of.thickness <= size);
   if (grains && !fits)
     found.say(
@@ -122,6 +123,28 @@ MOREAU_INLINED inline void check_direction(Findings& found, const Simulation& si
         {double(gravity[axis]), double(axis), -length, double(last)});
 }
 
+/// An attraction that is not 0 at the margin, of a law that does not say how far it reaches.
+template <class Simulation>
+[[gnu::cold]] void check_range([[maybe_unused]] Findings& found,
+                               [[maybe_unused]] const Simulation& simulation) {
+  using S = typename Simulation::S;
+  using Scalar = typename S::Scalar;
+  using Law = std::remove_cvref_t<decltype(simulation.materials().laws()[0])>;
+  if constexpr (AttractiveLaw<Law, S> && !AttractsInRange<Law, S> &&
+                requires(const Law law) { law.attraction(Scalar{}); }) {
+    const Scalar margin = simulation.tolerances().lengths(simulation.grain_size()).margin;
+    Scalar most = 0;
+    for (const Law& law : simulation.materials().laws())
+      most = std::max(most, law.attraction(Scalar(1.001) * margin));
+    if (most > 0)
+      found.say(
+          "a law attracts with % N at the margin of detection, % m, beyond which pairs have no "
+          "contacts: the attraction ends there. Give the law a function range() that returns the "
+          "largest gap with an attraction [m]",
+          {double(most), double(margin)});
+  }
+}
+
 template <class Simulation>
 [[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
   Extremes of;
@@ -141,16 +164,14 @@ template <class Simulation>
   if (of.width >= 5 * double(simulation.grain_size())) {
     of.thickness = of.width;
     for_each_judged([&](const auto& shape, std::size_t) {
-      const auto box = Placed(shape).bounding_box();
-      of.thickness = std::min(of.thickness, double((box.upper - box.lower).minCoeff()));
+      of.thickness = std::min(of.thickness, double(smallest_width(shape)));
     });
   }
   for (const auto& law : simulation.materials().laws())
-    if constexpr (requires {
-                    { law.friction() } -> std::floating_point;
-                  })
-      if (law.friction() >= 5 && law.friction() <= 90)
-        of.friction = std::max(of.friction, double(law.friction()));
+    if constexpr (FrictionLaw<std::remove_cvref_t<decltype(law)>>)
+      if (const double friction = double(law.friction()); friction >= 5 && friction <= 90)
+        of.friction = std::max(of.friction, friction);
+  check_range(found, simulation);
   of.gravity = double(simulation.gravity().norm());
   judge(found, of, double(simulation.grain_size()));
   check_direction(found, simulation);

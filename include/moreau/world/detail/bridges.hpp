@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,12 +16,6 @@
 #include "moreau/world/detail/gap_rounding.hpp"
 
 namespace moreau::detail {
-
-/// A law whose attraction ends at a gap range() [m], which can be infinite: then it ends at the margin.
-template <class Law, class S>
-concept AttractsInRange = AttractiveLaw<Law, S> && requires(const Law law) {
-  { law.range() } -> std::same_as<typename S::Scalar>;
-};
 
 /// The largest gap at which a law attracts, also beyond the margin [m]; 0 of a law whose attraction ends at the margin.
 template <class S, class Law>

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 #include "moreau/detect/broad_phase.hpp"
 #include "moreau/law/concepts.hpp"
@@ -15,38 +16,47 @@
 
 namespace moreau::detail {
 
-/// Whether a set-valued law has a function of an optional concept. With wrong types the concept would be absent without a word.
+/// Whether a set-valued law has a function of an optional concept, of whatever type, const or not. Without the error messages
+/// below a function of another type would be ignored.
 template <class Law, class S>
 struct NamesOf {
   using Scalar = typename S::Scalar;
-  static constexpr bool attraction = requires(const Law law, Scalar x) { law.attraction(x); };
-  static constexpr bool springs = requires(const Law law) { law.normal_compliance(); };
-  static constexpr bool share = requires(const Law law, Scalar x) { law.tangential_share(x, x); };
-  static constexpr bool bridges = requires { Law::is_bridged(std::size_t{}); };
-  static constexpr bool bonds = requires { Law::is_bonded(std::size_t{}); };
+  static constexpr bool attraction = requires(Law & law, Scalar x) { law.attraction(x); };
+  static constexpr bool range = requires(Law & law) { law.range(); };
+  static constexpr bool springs = requires(Law & law) { law.normal_compliance(); };
+  static constexpr bool share = requires(Law & law, Scalar x) { law.tangential_share(x, x); };
+  static constexpr bool bridges = requires(Law & law) { law.is_bridged(std::size_t{}); };
+  static constexpr bool bonds = requires(Law & law) { law.is_bonded(std::size_t{}); };
   static constexpr bool coulomb = requires { requires Law::is_coulomb; };
   /// Variants of this law; a law that derives from one with variants inherits none.
-  static constexpr bool variants = requires(const Law law, std::size_t k) {
-    { law.variant(k) } -> std::same_as<Law>;
+  static constexpr bool variants = requires(Law & law, std::size_t k) {
+    requires std::same_as<std::remove_cvref_t<decltype(law.variant(k))>, Law>;
   };
-  static constexpr bool at_rest = requires(const Law law, std::size_t k) {
-    law.variant_at_rest(k);
-  };
-  static constexpr bool friction = requires(const Law law) {
-    { law.friction() } -> std::convertible_to<double>;
-  };
-  static constexpr bool lanes = requires(const Law law) { law.lane_parameters(); };
+  static constexpr bool at_rest = requires(Law & law, std::size_t k) { law.variant_at_rest(k); };
+  static constexpr bool static_friction = requires(Law & law) { law.has_static_friction(); };
+  static constexpr bool friction = requires(Law & law) { law.friction(); };
+  static constexpr bool restitution = requires(Law & law) { law.restitution(); };
+  static constexpr bool lanes = requires(Law & law) { law.lane_parameters(); };
   static constexpr bool maps_lanes = requires { &Law::template natural_map_lanes<S>; };
   /// Whether the lanes are those of the class that has solve().
   static constexpr bool own_lanes = requires {
     requires SolvesAs<Law, S, decltype(class_of(&Law::lane_parameters))>;
   };
+  /// Whether lane_parameters() can be called for a law that is not const alone.
+  static constexpr bool changing_lanes = lanes && !requires(const Law& law) {
+    law.lane_parameters();
+  };
+  static constexpr bool changing_friction = friction && !requires(const Law& law) {
+    law.friction();
+  };
 };
 template <class Law, class S>
 requires(!SetValuedLaw<Law, S>) struct NamesOf<Law, S> {
-  static constexpr bool attraction = false, springs = false, share = false, bridges = false,
-                        bonds = false, variants = false, at_rest = false, friction = false,
-                        coulomb = false, lanes = false, maps_lanes = false, own_lanes = false;
+  static constexpr bool attraction = false, range = false, springs = false, share = false,
+                        bridges = false, bonds = false, variants = false, at_rest = false,
+                        static_friction = false, friction = false, restitution = false,
+                        coulomb = false, lanes = false, maps_lanes = false, own_lanes = false,
+                        changing_lanes = false, changing_friction = false;
 };
 
 /// Does not compile for policies that do not fit together.
@@ -65,6 +75,9 @@ struct Policies {
   static_assert(!Has::attraction || AttractiveLaw<Law, S>,
                 "Simulation: Law has attraction(), but is no AttractiveLaw; static_assert the "
                 "concept to see what is missing");
+  static_assert(!(AttractiveLaw<Law, S> && Has::range) || AttractsInRange<Law, S>,
+                "Simulation: Law has range(), but is no AttractsInRange: range() must be const and "
+                "return the scalar of the law");
   static_assert(!Has::springs || CompliantLaw<Law, S>,
                 "Simulation: Law has normal_compliance(), but is no CompliantLaw; static_assert "
                 "the concept to see what is missing");
@@ -81,11 +94,16 @@ struct Policies {
       !Has::variants || StatefulLaw<Law, S>,
       "Simulation: Law has variant(), but is no StatefulLaw; static_assert the concept to "
       "see what is missing");
-  static_assert(!(StatefulLaw<Law, S> && Has::at_rest) || StaticFrictionLaw<Law, S>,
-                "Simulation: Law has variant_at_rest(), but is no StaticFrictionLaw; static_assert "
-                "the concept to see what is missing");
-  static_assert(!Has::coulomb || Has::friction,
-                "Simulation: Law has is_coulomb, but no friction() that returns a number");
+  static_assert(!(StatefulLaw<Law, S> && (Has::at_rest || Has::static_friction)) ||
+                    StaticFrictionLaw<Law, S>,
+                "Simulation: Law has variant_at_rest() or has_static_friction(), but is no "
+                "StaticFrictionLaw; static_assert the concept to see what is missing");
+  static_assert(!Has::coulomb || FrictionLaw<Law>,
+                "Simulation: Law has is_coulomb, but no friction() const that returns a number");
+  static_assert(!Has::changing_friction, "Simulation: friction() of Law must be const");
+  static_assert(!Has::restitution || RestitutionLaw<Law>,
+                "Simulation: restitution() of Law must be const and return a number");
+  static_assert(!Has::changing_lanes, "Simulation: lane_parameters() of Law must be const");
   static_assert(!(Has::maps_lanes && Has::own_lanes && CoulombLaw<Law, S>) || MapsLanes<Law, S>,
                 "Simulation: Law has natural_map_lanes(), but is no MapsLanes; static_assert the "
                 "concept to see what is missing");
