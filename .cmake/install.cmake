@@ -29,7 +29,7 @@ install(FILES ${PROJECT_BINARY_DIR}/moreau.pc DESTINATION ${CMAKE_INSTALL_DATADI
 # The suites that policies of a user's own are tried with; they need doctest.
 install(DIRECTORY tests/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/moreau/tests
         FILES_MATCHING PATTERN "*.hpp" PATTERN shapes.hpp EXCLUDE PATTERN long EXCLUDE)
-install(FILES tests/solve/assembly.hpp DESTINATION ${CMAKE_INSTALL_DATADIR}/moreau/tests/solve)
+install(FILES tests/solve/assembly.hpp tests/solve/plain_coulomb.hpp DESTINATION ${CMAKE_INSTALL_DATADIR}/moreau/tests/solve)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/moreau)
 
 # A package of the headers for Debian and its kin: `cpack -G DEB` in the build folder.

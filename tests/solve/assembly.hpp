@@ -16,32 +16,11 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/nonlinear_gauss_seidel.hpp"
 
+#include "solve/plain_coulomb.hpp"
+
 namespace solve_test {
 
 using namespace moreau;
-
-/// A contact law that has only the functions that the concept requires.
-template <class T>
-struct PlainCoulomb {
-  SignoriniCoulomb<T> law;
-
-  T velocity_offset(T gap, T before, T step) const {
-    return law.velocity_offset(gap, before, step);
-  }
-  template <class S>
-  typename S::Vector solve(const LocalBlock<S>& block, const typename S::Vector& b,
-                           const typename S::Vector& guess) const {
-    return law.solve(block, b, guess);
-  }
-  template <class Vector>
-  Vector natural_map(const Vector& u, const Vector& r) const {
-    return law.natural_map(u, r);
-  }
-  template <class Vector>
-  Vector project(const Vector& x) const {
-    return law.project(x);
-  }
-};
 
 /// Chains of bodies that press on each other and on a fixed floor. Frames and levers are random, as
 /// in a random packing. The first body touches more bodies than there are colours in the coloured

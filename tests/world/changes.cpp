@@ -23,6 +23,7 @@
 #include "moreau/world/detail/enlarged_boxes.hpp"
 #include "moreau/world/simulation.hpp"
 
+#include "solve/plain_coulomb.hpp"
 #include "types.hpp"
 
 using namespace moreau;
@@ -34,34 +35,18 @@ namespace {
 
 /// Coulomb's law as a user writes a law, which counts its copies.
 template <class T>
-struct Counted {
+struct Counted : solve_test::PlainCoulomb<T> {
+  using Plain = solve_test::PlainCoulomb<T>;
   static inline long copies = 0;
-  SignoriniCoulomb<T> law;
 
-  explicit Counted(T friction = 0) : law(friction) {}
-  Counted(const Counted& other) : law(other.law) { ++copies; }
+  explicit Counted(T friction = 0) : Plain{SignoriniCoulomb<T>(friction)} {}
+  Counted(const Counted& other) : Plain(other) { ++copies; }
   Counted& operator=(const Counted& other) {
-    law = other.law;
+    Plain::operator=(other);
     ++copies;
     return *this;
   }
   ~Counted() = default;
-  T velocity_offset(T gap, T before, T step) const {
-    return law.velocity_offset(gap, before, step);
-  }
-  template <class SpaceT>
-  typename SpaceT::Vector solve(const LocalBlock<SpaceT>& block, const typename SpaceT::Vector& b,
-                                const typename SpaceT::Vector& guess) const {
-    return law.solve(block, b, guess);
-  }
-  template <class Row>
-  Row natural_map(const Row& u, const Row& r) const {
-    return law.natural_map(u, r);
-  }
-  template <class Row>
-  Row project(const Row& x) const {
-    return law.project(x);
-  }
 };
 
 /// A disk of 10 cm that slides on a floor, or over a fixed disk of 2 m, on which the normal turns.

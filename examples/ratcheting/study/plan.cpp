@@ -262,16 +262,22 @@ std::vector<Case> paper_plan() {
   return std::move(plan).cases();
 }
 
+/// Gives the run that makes the jammed state the sample of another run. jammed_name() and the run itself both use it, so
+/// that the name always fits.
+void jam(Parameters& p, const Parameters& sample) {
+  p.box_ratio = sample.box_ratio;
+  p.width_ratio = sample.width_ratio;
+  p.side_walls = sample.side_walls;
+  p.size_scale = sample.size_scale;
+  p.grains = sample.grains;
+  p.fmax = usual_fmax(p.grains);
+  p.duration = 0.35;  // to the second maximum of the force
+}
+
 /// The name of the run whose checkpoint is the jammed state of a sample, as its case's name.
 std::string jammed_name(const Parameters& p) {
   Parameters start = baseline("settled", p.shape, p.seed);
-  start.box_ratio = p.box_ratio;
-  start.width_ratio = p.width_ratio;
-  start.side_walls = p.side_walls;
-  start.size_scale = p.size_scale;
-  start.grains = p.grains;
-  start.fmax = usual_fmax(p.grains);
-  start.duration = 0.35;
+  jam(start, p);
   return name_of(start, baseline("settled", p.shape, p.seed), duration_at("settled", 5));
 }
 
@@ -283,13 +289,7 @@ void add_jammed(Builder& plan, const char* set, const char* shape, std::size_t s
   plan.add_to("settled", "jammed", shape, seed, [&](Parameters& p) {
     Parameters changed = p;
     change(changed);
-    p.box_ratio = changed.box_ratio;
-    p.width_ratio = changed.width_ratio;
-    p.side_walls = changed.side_walls;
-    p.size_scale = changed.size_scale;
-    p.grains = changed.grains;
-    p.fmax = usual_fmax(p.grains);
-    p.duration = 0.35;  // to the second maximum of the force
+    jam(p, changed);
     p.checkpoint_every = 1750;
   });
   plan.add_to(contacts, set, shape, seed, [&](Parameters& p) {

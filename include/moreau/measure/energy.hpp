@@ -77,17 +77,26 @@ KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
   return sum;
 }
 
+namespace detail {
+
+/// Mass, inertia, position and velocity of grain k of a simulation.
+template <class Simulation>
+BodyMotion<typename Simulation::S> motion_of_grain(const Simulation& simulation, std::size_t k) {
+  const auto& bodies = simulation.bodies();
+  const std::size_t i = simulation.grain(k).index();
+  return {bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation), bodies.pose[i].position,
+          bodies.velocity[i]};
+}
+
+}  // namespace detail
+
 /// Kinetic energy of all grains of a simulation [J]. Grains whose motion is prescribed count too. In a cell that deforms, of
 /// the velocities relative to the cell.
 /// @param simulation a Simulation
 template <class Simulation>
 KineticEnergy<typename Simulation::S> kinetic_energy(const Simulation& simulation) {
-  using S = typename Simulation::S;
-  const auto& bodies = simulation.bodies();
-  return kinetic_energy<S>(simulation.grain_count(), [&](std::size_t k) {
-    const std::size_t i = simulation.grain(k).index();
-    return BodyMotion<S>{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
-                         bodies.pose[i].position, bodies.velocity[i]};
+  return kinetic_energy<typename Simulation::S>(simulation.grain_count(), [&](std::size_t k) {
+    return detail::motion_of_grain(simulation, k);
   });
 }
 
@@ -115,16 +124,9 @@ template <class Simulation>
 Momentum<typename Simulation::S> momentum(
     const Simulation& simulation,
     const VectorArgument<typename Simulation::S>& origin = Simulation::S::Vector::Zero()) {
-  using S = typename Simulation::S;
-  const auto& bodies = simulation.bodies();
-  return momentum<S>(
+  return momentum<typename Simulation::S>(
       simulation.grain_count(),
-      [&](std::size_t k) {
-        const std::size_t i = simulation.grain(k).index();
-        return BodyMotion<S>{bodies.grain_mass[i], bodies.inertia(i, bodies.pose[i].rotation),
-                             bodies.pose[i].position, bodies.velocity[i]};
-      },
-      origin);
+      [&](std::size_t k) { return detail::motion_of_grain(simulation, k); }, origin);
 }
 
 }  // namespace moreau

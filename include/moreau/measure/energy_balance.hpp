@@ -137,6 +137,8 @@ class EnergyBalance {
 
   /// The component of a vector along those axes of the body along which the body has a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x);
+  /// Kinetic energy of body i [J] along the axes along which it has a mass. Unlike kinetic_energy() of energy.hpp it counts walls
+  /// with a mass, and no motion that is prescribed.
   static double kinetic_energy(const Bodies<S>& bodies, std::size_t i);
   /// Work of the impulse and couple that a body receives, along the prescribed part of its motion
   /// [J]. The drive that prescribes this motion supplies the opposite work.

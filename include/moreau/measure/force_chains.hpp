@@ -63,6 +63,22 @@ ContactSegment<S> contact_segment(const Contacts<S, Rows>& contacts, std::size_t
   return segment;
 }
 
+namespace detail {
+
+/// Replaces the contents of `segments` by the segments of the contact points that a filter takes.
+/// @param takes function: normal impulse of a contact point [N s] -> whether it is taken
+template <class S, int Rows>
+void list_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step,
+                   const auto& position_of, const auto& is_grain, const PeriodicCell<S>& cell,
+                   const auto& takes, std::vector<ContactSegment<S>>& segments) {
+  segments.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    if (takes(contacts.impulses[c][0]))
+      segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
+}
+
+}  // namespace detail
+
 /// Replaces the contents of `segments` by the segments of all contact points with normal force > 0,
 /// in the order of `contacts`. The arguments are those of contact_segment().
 /// @throws std::invalid_argument if the step is not finite or not positive
@@ -71,10 +87,9 @@ void force_chains(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                   const auto& position_of, const auto& is_grain,
                   std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
   require_positive(step, "force_chains", "step");
-  segments.clear();
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    if (contacts.impulses[c][0] > 0)
-      segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
+  detail::list_segments(
+      contacts, step, position_of, is_grain, cell, [](auto impulse) { return impulse > 0; },
+      segments);
 }
 
 /// Replaces the contents of `segments` by the segments of all contact points, including points
@@ -85,9 +100,8 @@ void contact_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step
                       const auto& position_of, const auto& is_grain,
                       std::vector<ContactSegment<S>>& segments, const PeriodicCell<S>& cell = {}) {
   require_positive(step, "contact_segments", "step");
-  segments.clear();
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    segments.push_back(contact_segment(contacts, c, step, position_of, is_grain, cell));
+  detail::list_segments(
+      contacts, step, position_of, is_grain, cell, [](auto) { return true; }, segments);
 }
 
 /// The segments of those contact points of a simulation that have a normal force > 0 in its last step.

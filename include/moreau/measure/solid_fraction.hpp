@@ -42,8 +42,8 @@ typename S::Scalar share_between(const SurfaceMesh<S>& mesh, const Pose<S>& pose
 }  // namespace detail
 
 /// The volume of that part of a capsule, a cylinder, a rounded shape or a convex shape of one's own with volume() which
-/// lies in a control volume [m^D]. Exact for a grain that lies in the control volume as a whole. Of a grain that the control
-/// volume cuts, the part is that of a mesh with 642 points (in the plane 64) inscribed in its surface,
+/// lies in a control volume [m^D]. Exact for a grain that lies in the control volume as a whole. For a grain that the control
+/// volume cuts, it is the part of a mesh with 642 points (in the plane 64) inscribed in its surface,
 /// to about 1 % of the grain.
 /// Arguments and exceptions are those of clipped_volume of a polytope (measure/clip.hpp).
 template <ConvexShape Shape, class S = SpaceOf<Shape>>

@@ -145,8 +145,10 @@ class ContactLanes {
         return aligned_.block.slip[i];
       else if constexpr (place.member == Member::free)
         return free_[i];
-      else
+      else {
+        static_assert(place.member == Member::padding);
         return Values{};
+      }
     });
   }
   void get_tangents(std::size_t lane, typename S::Matrix& frame) const {
@@ -191,7 +193,8 @@ class ContactLanes {
     if (!Lanes::any(varies)) return;
     add_uneven_mass(side.linear, varies, w);
   }
-  /// Adds F^T (1/m) F in some lanes. What is left by rounding of an axis across which the body is pushed counts as zero.
+  /// Adds F^T (1/m) F in some lanes. If the body cannot move along an axis of the frame, the entries of this axis are rounding
+  /// errors, and are set to zero.
   void add_uneven_mass(const typename Algebra::template Symmetric<dim>& linear,
                        const typename Lanes::Indices& varies,
                        typename Algebra::template Symmetric<dim>& w) const {
@@ -224,7 +227,7 @@ class ContactLanes {
   /// No impulse changes the tangential velocity of a wall with a mass and a grain of prescribed motion:
   /// the slip of W_cc is zero. The local solution divides by it. Any positive value leaves the solution
   /// of the contact problem as it is, because each visit of a contact subtracts W_cc r before it solves
-  /// with the same W_cc. Of other contacts the slip is of the order of w_nn.
+  /// with the same W_cc. The slip of other contacts is of the order of w_nn.
   void make_regular() {
     constexpr T rounding = 64 * std::numeric_limits<T>::epsilon();
     const Values& normal = aligned_.block.normal;

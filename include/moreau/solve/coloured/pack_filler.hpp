@@ -62,7 +62,7 @@ class PackFiller {
     }
     point.law = law;
   }
-  /// Replaces the free velocities and the impulses of a PointPack; the laws forget their local solutions.
+  /// Replaces the free velocities and the impulses of a PointPack, and sets the memory of the laws to 0.
   static void refill(Points& point, const std::uint32_t* contacts,
                      const ContactProblem<Operator, Law>& problem,
                      std::span<const Impulse> impulses) {
@@ -113,8 +113,10 @@ class PackFiller {
         return point.block.slip[i];
       else if constexpr (place.member == Member::free)
         return point.free[i];
-      else
+      else {
+        static_assert(place.member == Member::padding);
         return padding;
+      }
     });
     point.block.invert();
   }
