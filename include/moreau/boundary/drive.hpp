@@ -6,7 +6,7 @@
 //   for (...) { shake.apply(world, h); world.step(h); }
 //
 // A body has one drive: each apply() replaces the whole force, or the whole velocity along the axes that are prescribed.
-// Of two drives of one body only that applied last acts; they do not add. Along several axes, call
+// If two drives are applied to one body, only the last one acts; they do not add. Along several axes, call
 // set_force() or set_velocity() with the sum before each step.
 //
 // The drive evaluates the function at the middle of the step. This makes the motion second-order
@@ -185,7 +185,7 @@ class VelocityDrive : public detail::Drive<VectorT, F> {
   void apply(SimulationWithVector<VectorT> auto& simulation, typename Base::Scalar step) const {
     constexpr const char* self = "VelocityDrive::apply";
     VectorT velocity = this->value(simulation, step, self);
-    // Of a wall with a mass and the normal n: n n^T / sqrt(m); else 0.
+    // n n^T / sqrt(m) for a wall with a mass and the normal n; else 0.
     const auto root = this->require_mass(
         simulation, false, self,
         "must have a prescribed motion along the direction, as a wall without set_wall_mass");

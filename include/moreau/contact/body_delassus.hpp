@@ -127,7 +127,7 @@ class BodyDelassus {
   }
   /// M^-1 of a body.
   const InverseMass<S>& inverse_mass(std::size_t body) const { return masses_[body]; }
-  /// Of each body: 0 if no impulse moves it, 1 if impulses move it, 2 if they rotate it as well.
+  /// For each body: 0 if no impulse moves it, 1 if impulses move it, 2 if they rotate it as well.
   std::span<const unsigned char> freedoms() const { return freedoms_; }
   /// The longest lever of a body that impulses rotate [m].
   Scalar longest_lever() const { return longest_lever_; }
@@ -285,7 +285,7 @@ class BodyDelassus {
   }
   /// @}
 
-  /// Sets the velocities of all bodies by impulses that somebody else has added up, and those of springs and cell.
+  /// Sets the velocities of all bodies by impulses that the caller has added up, and those of springs and cell.
   /// @param change_of function: body -> change of its velocity by the impulses, entries (v, w) in world axes [m/s, rad/s]
   void set_changes(std::span<const Vector> impulses, const auto& change_of, const Team& team) {
     team.share_each(changes_.size(), 256, [&](std::size_t i) {

@@ -10,8 +10,8 @@
 
 namespace moreau::detail {
 
-/// The pairs of bodies of a contact problem, in the order of their contacts. The contacts of a pair follow one another: a
-/// pair whose contacts do not counts as several.
+/// The pairs of bodies of a contact problem, in the order of their contacts. The contacts of a pair must follow one another; if
+/// they do not, the pair is listed several times.
 class ContactPairs {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< bodies a and b

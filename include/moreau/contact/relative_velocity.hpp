@@ -3,9 +3,15 @@
 //
 //     v_b + w_b x l_b - v_a - w_a x l_a,
 //
-// with the levers l from the centres of the bodies to the point. All stages of a step compute it here, but for
-// the direct method for islands, which has rows of J (solve/detail/jacobian_rows.hpp). The operator of a
-// contact problem adds the relative spin of contacts with couples, and turns both into its rows (BodyDelassus::row()).
+// with the levers l from the centres of the bodies to the point. The stages of a step compute it here, with these exceptions:
+//
+// - the direct method for islands has rows of J (solve/detail/jacobian_rows.hpp)
+// - the overlap correction computes changes of gaps by displacements from rows of its own (world/detail/overlap_sweeps.hpp)
+// - the choice of margins bounds it at the centre of a body (relative_speed() in world/detail/step_margins.hpp)
+// - a periodic cell that deforms adds a term (world/detail/cell_jumps.hpp)
+//
+// The operator of a contact problem adds the relative spin of contacts with couples, and turns both into its rows
+// (BodyDelassus::row()).
 #pragma once
 
 #include <cstddef>

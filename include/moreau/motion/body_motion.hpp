@@ -82,7 +82,7 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& start, typename S::Scalar h) {
   using Scalar = typename S::Scalar;
   const typename S::Rotation& q = bodies.pose[i].rotation;
-  // In units of the inertia: squares of momenta of small and of large bodies would be no numbers.
+  // In units of the inertia: squares of momenta of small and of large bodies could not be represented.
   const Scalar unit = reciprocal_power(bodies.inertia_body[i].trace());
   const typename S::Angular scaled = unit * momentum;
   const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * scaled.norm();

@@ -82,8 +82,11 @@ std::array<typename S::Vector, S::dim + 1> simplex_directions() {
 }  // namespace detail
 
 /// A pebble: a ball from which round dents have been pressed.
-/// @param radius [m], > 0
-/// @param dents  their number, >= 0; each is about 0.3 radii deep and 60 degrees wide
+/// @param radius   [m], > 0
+/// @param dents    their number, >= 0; each is about 0.3 radii deep and 60 degrees wide
+/// @param seed     of the random directions of the dents
+/// @param fineness see star_mesh()
+/// @throws std::invalid_argument outside these ranges
 template <EuclideanSpace S>
 FacetMesh<S> pebble_mesh(typename S::Scalar radius, int dents, std::uint64_t seed,
                          int fineness = 3) {
@@ -108,6 +111,8 @@ FacetMesh<S> pebble_mesh(typename S::Scalar radius, int dents, std::uint64_t see
 /// A tetrapod: D + 1 legs along the directions of a regular simplex.
 /// @param length of the legs, from the origin [m], > 0
 /// @param width  of the legs: their radius [m], > 0 and < length
+/// @param fineness see star_mesh()
+/// @throws std::invalid_argument outside these ranges
 template <EuclideanSpace S>
 FacetMesh<S> tetrapod_mesh(typename S::Scalar length, typename S::Scalar width, int fineness = 4) {
   using T = typename S::Scalar;
@@ -130,6 +135,9 @@ FacetMesh<S> tetrapod_mesh(typename S::Scalar length, typename S::Scalar width, 
 /// A ballast stone with concavities: a convex body of random planes, of which lumps are missing.
 /// @param radius [m], > 0: the planes lie at 0.75 to 1 radii
 /// @param lumps  number of missing lumps, >= 0: each leaves a hollow about 0.25 radii deep
+/// @param seed     of the random planes and lumps
+/// @param fineness see star_mesh()
+/// @throws std::invalid_argument outside these ranges
 template <EuclideanSpace S>
 FacetMesh<S> ballast_mesh(typename S::Scalar radius, int lumps, std::uint64_t seed,
                           int fineness = 4) {

@@ -7,14 +7,14 @@
 //  - Nesterov's momentum: a sweep starts from r + beta (r - r of the sweep before) and from the
 //    velocities of the bodies for these impulses. Velocities are linear in r: both are extrapolated
 //    with the same beta;
-//  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can repel the
-//    sweeps, which then circle around it for thousands of sweeps;
+//  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can be an unstable fixed
+//    point of the sweeps, and the iteration then cycles around it for thousands of sweeps;
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
 //    stopping test visits all contacts and updates the set, and so do sweeps 1, 2, 4, 8, .. of the first interval.
 //
 // Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
-// bodies by a direct method, if the law is Coulomb's (detail/island_solver.hpp, island_newton.hpp). Sweeps do not get
-// there along chains: the residual is relative to the largest impulses, and small errors of many contacts add up.
+// bodies by a direct method, if the law is Coulomb's (detail/island_solver.hpp, island_newton.hpp). Sweeps do not reach this
+// tolerance in chains of contacts: the residual is relative to the largest impulses, and small errors of many contacts add up.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
 // solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.

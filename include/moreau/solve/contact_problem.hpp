@@ -25,8 +25,8 @@ namespace moreau {
 namespace detail {
 
 /// The attraction in a contact problem (law/cohesive.hpp, law/bonded.hpp). The unknown p = r + h T of a contact that
-/// attracts with the force T is the push against it. Where the contact bears nothing p is h T, and its load r, which the
-/// bodies feel, can be much smaller: errors are relative to r.
+/// attracts with the force T is the push against it. At a contact without load p is h T. The load r can be much smaller
+/// than p: errors are relative to r.
 template <class T>
 struct ProblemAttraction {
   std::vector<T>
@@ -54,15 +54,15 @@ struct ContactProblem {
   Operator delassus;           ///< W and b; carries u under the impulses applied so far
   std::vector<Law> laws;       ///< the table of laws
   List<std::uint32_t> law_of;  ///< one per contact: its entry in the table
-  /// Rounding of the velocities of the bodies, one per body, from which b is computed [m/s]; empty: not known. Errors
-  /// below it are none: bodies that touch and fall together have only rounding in b.
+  /// Rounding of the velocities of the bodies, one per body, from which b is computed [m/s]; empty: not known. Smaller
+  /// errors are neglected: if bodies touch and fall together, b is only rounding.
   List<Scalar> rounding;
   /// Velocities that the loads of the step give the bodies, one per body, g h under gravity alone [m/s]; empty: not known.
   List<Scalar> load;
   /// Velocities of the bodies without impulses, from which b is computed, one per body, (v, w) in world axes [m/s, rad/s];
   /// in single precision only; empty: not known.
   List<typename Space::Twist> free;
-  /// That of the contacts.
+  /// The attraction of the contacts, if the law is an AttractiveLaw.
   [[no_unique_address]] std::conditional_t<
       AttractiveLaw<Law, Space>, detail::ProblemAttraction<Scalar>, detail::NoProblemAttraction>
       attraction;

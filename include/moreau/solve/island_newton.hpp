@@ -230,7 +230,7 @@ class IslandNewton {
   /// longer falls, or until a step fails.
   MOREAU_INLINED Errors make_steps(double epsilon, const Precision& precision) {
     const double tolerance = precision.tolerance, least = precision.least_epsilon;
-    // Of the mode that holds the heaviest body by the lightest, through all others.
+    // The ratio of stiffnesses for the mode in which the lightest body holds the heaviest one through all others.
     const double bodies = double(step_.points().bodies());
     const double softest = 1 + least * mass_ratio() * bodies * bodies;
     Errors errors;

@@ -99,14 +99,15 @@ struct ResidualSums {
     if (std::isfinite(map) && std::isfinite(norm)) return;
     report.residual = report.relative_approach = std::numeric_limits<double>::infinity();
   }
-  /// Errors that are rounding of the velocities of the bodies count as zero, if there is no larger load.
+  /// Sets errors to zero that are not larger than the rounding of the velocities of the bodies, unless a load is larger.
   void forgive_rounding(const ContactProblem<Operator, Law>& problem) {
     double largest = 0;
     for (const auto x : problem.rounding) largest = std::max(largest, double(x));
     constexpr double several = 100;
     if (largest == 0 || !(norm + approach <= several * double(problem.size()) * largest * largest))
       return;
-    double least = 0;  // of the contacts: a fast body elsewhere excuses nothing
+    double least =
+        0;  // the rounding at the contacts; other bodies, which can be faster, are not counted
     for (std::size_t c = 0; c < problem.size(); ++c) {
       const auto [a, b] = problem.delassus.bodies(c);
       const double own = std::max(double(problem.rounding[a]), double(problem.rounding[b]));
@@ -116,8 +117,9 @@ struct ResidualSums {
     if (map <= least) map = 0;
     if (closing <= least) closing = 0;
   }
-  /// Makes the sums relative to the loads of contacts that attract, not to the attraction. Impulses as large as that have
-  /// rounding that no solution can go below: velocities of 32 epsilon times these impulses, and of the rounding of b, count as zero.
+  /// Makes the sums relative to the loads of contacts that attract, not to the attraction. Velocities up to 32 epsilon times
+  /// the impulses of the attraction, and up to the rounding of b, are set to zero: this rounding error is a lower bound for
+  /// every solution.
   /// @param scale makes velocities of impulses [1/kg]
   void relate_to_loads(const ContactProblem<Operator, Law>& problem,
                        std::span<const typename Operator::Vector> impulses,
@@ -168,7 +170,7 @@ struct ResidualSums {
     const double left = u[0] >= 0 ? 0 : double(u[0]);  // NaN stays
     closing += left * left;
     // The map is a difference of impulses and velocities. If the load is as small as the rounding errors of
-    // the velocity, as in a free fall, no impulse has a smaller one.
+    // the velocity, as in a free fall, these errors are a lower bound of the map.
     constexpr double rounding =
         8 * double(std::numeric_limits<typename Operator::Scalar>::epsilon());
     const double above = natural_map2(problem.law(c), u, scaled, to_velocity) -
@@ -181,7 +183,7 @@ struct ResidualSums {
     complementarity = std::max(complementarity, std::abs(double(u[0] * r[0])));
     dissipation += std::max(0.0, power);
     const Vector still = Vector::Zero();
-    // As a velocity: in single precision, squares of impulses of grains of 1e-6 m or 1e4 m are no numbers.
+    // As a velocity: in single precision the squares of impulses of grains of 1e-6 m or 1e4 m cannot be represented.
     cone =
         std::max(cone, std::sqrt(natural_map2(problem.law(c), still, scaled, to_velocity)) / scale);
   }

@@ -16,10 +16,10 @@ struct SolveReport {
   bool capped = false;
 
   /// Natural-map residual || r - P_K(r - (u + mu |u_t| n)) || / || r ||, after scaling so that the
-  /// mean of diag W is 1 [-]. Absolute if r = 0 [m/s]. The squared rounding errors of the velocities,
-  /// (8 epsilon)^2 |u|^2, are subtracted from the squared numerator: no impulses have a smaller one. Of contacts
-  /// that attract the denominator has r, which the bodies feel, not the push p = r + h T against the attraction or
-  /// the strength of a bond; the rounding of p, 32 epsilon |p|, is subtracted, too.
+  /// mean of diag W is 1 [-]; under rolling resistance with mu |u_t| + eta |w| in place of mu |u_t|. Absolute if r = 0 [m/s]. The squared
+  /// rounding errors of the velocities, (8 epsilon)^2 |u|^2, are subtracted from the squared numerator: they are a lower bound
+  /// of it. For contacts that attract the denominator contains the impulse r on the bodies, not the push p = r + h T against the
+  /// attraction or the strength of a bond; the rounding of p, 32 epsilon |p|, is subtracted from the numerator, too.
   double residual = 0;
   /// max(natural-map residual, remaining approach velocity) / approach velocity without impulses.
   /// All three are root mean squares over the contacts [-]; 0 if nothing approaches.
@@ -30,8 +30,8 @@ struct SolveReport {
   double relative_approach = 0;
   static constexpr double max_relative_approach = 0.1;  ///< bound on relative_approach [-]
 
-  /// Of bodies in small islands, sets of up to 200 bodies that contacts connect: the largest error of a
-  /// velocity, as a root mean square over the mass of a body [-]. It is relative to the sum of the velocities that the impulses
+  /// The largest error of the velocity of a body in a small island (a set of up to 200 bodies that contacts
+  /// connect), as a root mean square over the mass of the body [-]. It is relative to the sum of the velocities that the impulses
   /// of its contacts gave to the body in the step, at most to the largest velocity that impulses gave to a body of its
   /// island. For a structure at rest this is g h. It is
   /// estimated by a direct method, which attempts structures at rest in every step, islands of many contacts
@@ -54,7 +54,8 @@ struct SolveReport {
   /// Largest distance of r from the impulses that the law allows, by the law's projection [N s].
   double worst_cone = 0;
   double worst_complementarity = 0;  ///< largest |(u_n + offset) r_n| [J]
-  /// Sum of the positive u_t . r_t: energy that friction adds instead of dissipating it [J].
+  /// Sum of the positive u_t . r_t + w . m, the last term with the couples of rolling laws: energy that they add instead of
+  /// dissipating it [J].
   double wrong_sign_dissipation = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bond between two bodies, and what is left of it in the list of breakages. The law is in law/bonded.hpp.
+// Bond: a bond between two bodies. Breakage: the record of a bond that broke. The law is in law/bonded.hpp.
 #pragma once
 
 #include <Eigen/Core>

@@ -25,9 +25,9 @@ struct StepReport {
   /// if its impulse was 0.
   std::size_t warm_started = 0;
   /// Largest approach velocity of the contacts that were found, before the step, x step / margin [-].
-  /// Above 1, surfaces can come within the margin and overlap in one step. Speed that a body gets in a step shows
-  /// in the step in which it meets another body; two that pass through each other between two detections have no
-  /// contact, and show in none. 0 under a regularized law.
+  /// Above 1, surfaces can come within the margin and overlap in one step. The speed that a body gets in a step counts
+  /// in the step in which it has a contact. Two bodies that pass through each other between two detections have no
+  /// contact, and do not count. 0 under a regularized law.
   double approach = 0;
   std::size_t overlapping = 0;  ///< points with gap < 0 as detected
   double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]
@@ -48,8 +48,8 @@ struct StepReport {
   /// Root mean square of the forces of the bonds, couples included, over that of the pushes against their strength [-]; 0
   /// without bonds.
   double bond_load = 0;
-  /// To about which part of themselves the forces of the bonds are known [-]: solve.residual, or 32 epsilon / bond_load if that
-  /// is larger, as impulses have the rounding of the strength.
+  /// Estimated relative error of the forces of the bonds [-]: solve.residual, or 32 epsilon / bond_load if that
+  /// is larger, because impulses have the rounding of the strength.
   double bond_error = 0;
   /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
   /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic
@@ -65,11 +65,11 @@ struct StepReport {
   double elastic_energy = 0;
   double elastic_work = 0;         ///< energy that these springs took in the step [J]
   double max_elastic_overlap = 0;  ///< largest compression of a normal spring, >= 0 [m]
-  /// Of a compliant law: the smallest C_n / (h^2 W_nn) of the loaded contacts [-], C_n being the
+  /// Under a compliant law: the smallest C_n / (h^2 W_nn) of the loaded contacts [-], C_n being the
   /// compliance of a contact point and W_nn that of the bodies at it; 0 under other laws. The forces are
   /// known to about solve.residual over this number.
   double relative_compliance = 0;
-  /// Of a compliant law: the natural-map residual of the law without its springs [-].
+  /// Under a compliant law: the natural-map residual of the law without its springs [-].
   double rigid_residual = 0;
   /// Whether a pair closed a gap for which it had no contact, and the step was solved again with all contacts up to
   /// the margin.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A periodic cell that moves by its stress, in the Delassus operator: one more body, with D x D velocities Lambda, that
-// all contacts touch. Of a contact with the frame F, the levers l_a, l_b and an impulse p in world axes
+// all contacts touch. For a contact with the frame F, the levers l_a, l_b and an impulse p in world axes
 //
-//     u_c has F^T Lambda d,     Lambda_ij += R_ij p_i d_j,       d = l_a - l_b,
+//     u_c contains F^T Lambda d,     Lambda_ij += R_ij p_i d_j,       d = l_a - l_b,
 //
 // with the response R of the cell (world/detail/cell_servo.hpp).
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace moreau::detail {
 
-/// The cell of a BodyDelassus, whose functions of the cell have the meaning of these.
+/// The cell of a BodyDelassus, which has functions with the same meaning.
 template <class S>
 class OperatorCell {
  public:

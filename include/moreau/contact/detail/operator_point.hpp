@@ -155,7 +155,8 @@ struct OperatorPoint : CoupleArm<S, Couples> {
   }
 };
 
-/// The data of a contact that a pass reads if it does not need the point: a pass over these reads less memory.
+/// Bodies and trace of the block of a contact. They are stored separately: passes that need only these read less memory than
+/// if they read OperatorPoint.
 template <class T>
 struct OperatorHead {
   std::array<std::uint32_t, 2> bodies;

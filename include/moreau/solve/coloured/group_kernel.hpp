@@ -38,8 +38,8 @@ class GroupKernel {
   using Vector = typename LaneBlock<S>::Vector;
   using Row = typename Groups::Points::Row;
   static constexpr std::size_t rows = Groups::rows_of_point;  ///< of a contact
-  static constexpr bool is_fine =
-      std::is_same_v<T, double>;  ///< whether squares of impulses are numbers
+  /// Whether squares of impulses can be represented.
+  static constexpr bool is_fine = std::is_same_v<T, double>;
   using Impulse = typename Operator::Vector;
   using Group = typename Groups::Group;
   using Points = typename Groups::Points;
@@ -363,7 +363,7 @@ class GroupKernel {
     velocity_.scatter(group, a, b);
   }
   /// What is squared of an impulse, for sums of which only ratios count: in single precision a multiple of it, because
-  /// squares of impulses of grains of 1e-6 m or 1e4 m are no numbers.
+  /// squares of impulses of grains of 1e-6 m or 1e4 m cannot be represented.
   Values scaled(const Values& impulse) const {
     if constexpr (is_fine)
       return impulse;

@@ -8,9 +8,9 @@
 //
 //     Lambda_ij += R_ij times the sum of P_i d_j over all pairs,     P = m_b (v_b after the visit - v_b before it),
 //
-// P being the change of the impulses of a pair in its visit, which moves the body b. Of the few groups with a body b that
-// cannot move, or moves along some axes only, P is the difference of the impulses of their points. Errors by rounding add
-// up in Lambda as in the velocities of the bodies; both are computed anew from the impulses at the same time.
+// P being the change of the impulses of a pair in its visit, which moves the body b. Where the body b of a group cannot move,
+// or moves along some axes only, P is the difference of the impulses of the points of the group. Rounding errors accumulate in
+// Lambda as in the velocities of the bodies; both are computed anew from the impulses at the same time.
 #pragma once
 
 #include <algorithm>

@@ -58,7 +58,7 @@ class AndersonMixing {
   }
 
   /// The products of a vector with the stored changes. In double precision: squares of impulses of grains of 1e-6 m or 1e4 m
-  /// are no numbers in single precision.
+  /// cannot be represented in single precision.
   Weights products_with(const Vector& x, SharedBodies* shared) const {
     Weights products{};
     for (std::size_t k = 0; k < known_; ++k) products[k] = product(change_[k], x);

@@ -99,8 +99,9 @@ class CoulombNewton {
     return std::sqrt(sum);
   }
 
-  /// One step with a line search: |F| below the largest of the last few (L. Grippo,
+  /// One step of Newton's method with a line search: |F| below the largest of the last few (L. Grippo,
   /// F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986) 707).
+  /// @param r in, out: impulses [N s]; unchanged if the function returns false
   /// @returns false if the derivative is singular or no step reduces |F|
   bool step(Eigen::VectorXd& r) {
     constexpr int halvings = 12;

@@ -273,8 +273,9 @@ class ProximalStep {
     for (std::size_t i = 0; i < scale_.size(); ++i)
       scale_[i] = std::max(least_[i], std::min(most, scale_[i] * points_.speed(i)));
   }
-  /// Sets the limits of the friction that a step has found.
-  /// @returns the largest change of the velocity of a body if the friction of one contact followed, relative to find_scales() [-]
+  /// Sets the limits of the friction to mu r_n of the impulses that a step has found [N s].
+  /// @returns the largest change of the velocity of a body that one contact would cause if its friction went to its new limit, relative
+  ///          to find_scales() [-]
   MOREAU_INLINED double take_limits() {
     double largest = 0;
     for (std::size_t k = 0; k < limit_.size(); ++k) {

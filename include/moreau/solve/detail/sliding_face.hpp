@@ -30,7 +30,7 @@ struct SlidingFace {
   double sum = 0;          ///< of the pressure [N s]
   double slip = 0;         ///< of the fastest point [m/s]
   double stopped = 0;      ///< velocity that friction can change in a step, about [m/s]
-  double still = 0;        ///< slip that is none [m/s]
+  double still = 0;        ///< smaller slips are neglected [m/s]
   bool slides() const {
     constexpr double rest = 1e-3;
     return points > 1 && stopped > 0 && slip > std::max(still, rest * stopped);
@@ -49,7 +49,8 @@ struct SlidingScales {
   double fastest;  ///< as for is_closed() [m/s]
   std::span<const double>
       body;  ///< of each body of the island: the velocity that its errors are relative to [m/s]
-  /// Slip of a contact that is none [m/s]: ten times the error of velocities. A face with little pressure would slide with any.
+  /// Smaller slips of a contact are neglected [m/s]: ten times the error of velocities. Without this bound every slip of a face
+  /// with little pressure would count as sliding.
   double still(const auto& point) const {
     constexpr double share = 1e-4;
     double least = std::numeric_limits<double>::infinity();

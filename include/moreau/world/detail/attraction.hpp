@@ -8,8 +8,8 @@
 // strong bond is many orders of magnitude larger than the force that the bond transmits. This rounding differs from
 // body to body, and the momentum of free bodies would not stay constant.
 //
-// Of bodies that several processes share, each process attracts its copies of a part of the mass by its own contacts;
-// the mean of the copies is the body under all of them (solve/shared_bodies.hpp).
+// If several processes share a body, each has a copy with a part of its mass, and applies the attraction of its own contacts to this
+// copy. The mean of the copies is the body under the attraction of all contacts (solve/shared_bodies.hpp).
 #pragma once
 
 #include <algorithm>
@@ -66,8 +66,8 @@ class Attraction {
       pull_body(roots[contact.a], contact.lever_a, -pull, free[contact.a]);
     }
   }
-  /// Tells the solver from which impulses those of the contacts are measured. Without bonds.
-  /// @param velocity_of function: contact -> its velocity if no contact bears anything [m/s]
+  /// Sets the reference of the errors of the solver: the impulses h T of the attraction. Without bonds.
+  /// @param velocity_of function: contact -> its relative velocity if the impulses on all bodies are 0 [m/s]
   void refer(const auto& velocity_of, ProblemAttraction<Scalar>& attraction) const {
     attraction.pulls.clear();
     attraction.velocity2 = attraction.rounding2 = 0;

@@ -8,9 +8,9 @@
 //
 // The velocity v + w x X is tangent to the arc: a grain that follows it leaves the wall's circle by
 // E(w) X per unit of time. So a body that rests on a turning wall would drift outwards, by pi h |w| times
-// its radius per turn. The contact problem therefore takes the chord of the arc, (displacement)/h, for
-// the velocity of the wall, and the same of the grain's own rotation, so that a grain that turns with the
-// wall is at rest to rounding. Of a gap g(t) along the normal n the second derivative has one more term
+// its radius per turn. The contact problem therefore uses the chord of the arc, (displacement)/h, as
+// the velocity of the wall, and does the same for the rotation of the grain, so that a grain that turns with the
+// wall is at rest to rounding. The second derivative of the gap g(t) along the normal n has one more term
 // if the body that owns the touching face turns at w and the bodies slide at u_t:
 //
 //     h/2 g'' = n . (E(w_b) X_b - E(w_a) X_a) + h (w x n) . u_t
@@ -25,9 +25,9 @@
 // in every step: pi h u / R of its speed per turn. With c a step without friction is the map of SHAKE (J.-P.
 // Ryckaert et al., J. Comput. Phys. 23 (1977) 327), which reflects this part and conserves the speed.
 //
-// Of rounded bodies the point that counts is that of the core: the centre of a ball, the end of the
-// segment of a capsule, a point of the axis of a Cylinder that is touched at its round side. Of other grains of which
-// only the support function is known it is the centre. X_a and X_b lead to the point of the core of the body that
+// For a rounded body X leads to a point of its core: the centre of a ball, the end of the
+// segment of a capsule, a point of the axis of a Cylinder that is touched at its round side. For other grains of which
+// only the support function is known it leads to the centre. X_a and X_b lead to the point of the core of the body that
 // touches the face of the other one. So a ball or a capsule that turns about its own axis moves no point of a core, and
 // nothing sinks into a roller. Where neither body has a face, as between two balls, each X leads to the own core, and
 // instead of the turning face there is the curvature, h/2 |u_t|^2 / d, with the distance d of the cores.
@@ -41,7 +41,8 @@
 // beside the chords. Without it the velocities of the step lag behind the path by half a step: with h Omega = 0.005 a
 // ball that rolls on a turntable left its circle by 1.1 % of the radius per turn, and one that rolls round in a tube
 // lost half of its energy in 20 turns. On a ball at rest the normal turns with the cores, m = r u_t / d with the radius
-// r of the ball that rolls: one that spins and rolls round on it lost its lean and 0.1 % of its spin per turn.
+// r of the ball that rolls: a ball that spins and rolls around it lost
+// the tilt of its spin axis, and 0.1 % of its spin per turn.
 //
 // The side of a capsule, of a Cylinder and the edge of a polyhedron, rounded or not, are straight: nothing bends along them.
 // A side is followed in a frame that turns with its direction e, but not about it, at the rate t = w - e (e . w): the core of
@@ -116,7 +117,7 @@ class ChordVelocities {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const ContactKey& key = contacts.keys[c];
-      if (is_bond(key) || !is_marked(assembly, contact, key)) continue;
+      if (is_bond(key) || !has_chord(assembly, contact, key)) continue;
       const auto* cylinder = cylinder_of(assembly, contact.b);
       velocities_[c] = cylinder ? along_cylinder(assembly, *cylinder, contact, key, step)
                                 : along_wall(assembly, contact, key, step);
@@ -150,7 +151,7 @@ class ChordVelocities {
     for (const CylinderBody<S>& cylinder : assembly.cylinders()) set(cylinder.body.index(), turns);
   }
   /// Whether a contact has a chord.
-  bool is_marked(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
+  bool has_chord(const Assembly<ShapeT>& assembly, const Contact<S>& contact,
                  const ContactKey& key) const {
     const unsigned char mark = std::max(marks_[contact.a], marks_[contact.b]);
     return mark == turns || (mark == ball_at_rest && !is_bond(key) &&
@@ -163,7 +164,7 @@ class ChordVelocities {
     return nullptr;
   }
 
-  /// Of a half-space, a mesh wall or a grain whose rotation is prescribed. The normal turns at the rate tilt x n + swerve.
+  /// The chord of a contact with a half-space, a mesh wall or a grain whose rotation is prescribed [m/s]. The normal turns at the rate tilt x n + swerve.
   [[gnu::cold, gnu::noinline]] static Vector along_wall(const Assembly<ShapeT>& assembly,
                                                         const Contact<S>& contact,
                                                         const ContactKey& key, Scalar step) {
@@ -245,7 +246,7 @@ class ChordVelocities {
     return step / 2 * along(change, -normal.dot(change), normal);
   }
 
-  /// Of a cylinder, which its rotation about its axis leaves where it is.
+  /// The chord of a contact with a cylinder [m/s]. A rotation of the cylinder about its axis does not move its surface.
   [[gnu::cold, gnu::noinline]] static Vector along_cylinder(const Assembly<ShapeT>& assembly,
                                                             const CylinderBody<S>& cylinder,
                                                             const Contact<S>& contact,

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Contacts with a restitution that close within a step.
 //
-// A law with restitution lets a contact wait until its gap is closed (newton_restitution.hpp): a contact that
-// anticipated its gap would lose the restitution. For the points of a face this is too late. The gaps of a face that
-// lands flat differ by rounding, or by the tilt that an earlier impact has left, and a step that begins between them
-// would let some of the points bounce and others wait: the grain would turn, with up to twice the velocity of the
-// impact. A grain that rests would fall for a step wherever rounding opens its gap. So a contact that waits and whose
-// gap closes within the step, with the velocity that forces alone would give, acts in two cases:
+// Under a law with restitution a contact does not act before its gap is closed (newton_restitution.hpp): a contact that
+// acted before would lose the restitution. For the points of a face this is too late. The gaps of a face that
+// lands flat differ by rounding, or by the tilt that an earlier impact has left. If a step begins when some of them are closed,
+// these points would act and the others would not: the grain would turn, with up to twice the velocity of the
+// impact. A grain at rest would fall for a step wherever rounding opens its gap. So a contact with an open gap that
+// closes within the step, at the velocity that forces alone would give, acts in two cases:
 //
 //   1. the pair touches: it has a contact whose gap is closed. The contact acts as if its gap were closed, too: a face
 //      lands as a whole;
 //   2. the contact is slow: the approach before the step is at most what forces add in the step. It may close its gap
 //      within the step, as without restitution, and the bounce of the law is on top of that.
 //
-// Both offsets tend to that of a closed contact if the gap tends to 0. A ball that falls onto a floor waits, as do
-// balls in a row of which the first is hit.
+// Both offsets tend to that of a closed contact if the gap tends to 0. Neither case applies to a ball that falls
+// onto a floor, nor to balls in a row of which the first is hit.
 #pragma once
 
 #include <cmath>

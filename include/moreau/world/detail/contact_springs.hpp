@@ -133,7 +133,8 @@ class ContactSprings {
       for (std::size_t c = first; c < last; ++c) impulses[c] *= kept;
     }
   }
-  /// Adds to b the velocity by which the springs relax, -c s, and the motion that they have missed, d / h.
+  /// Adds to b the relaxation of the springs, -c s, and d / h, the correction for a step of another length
+  /// (law/compliant.hpp).
   /// @param impulses s, attraction included [N s]
   /// @param jumps    of the cell, if it deforms; null: none
   void relax(const StepContext<S, Law>& context, std::span<const Row> impulses,

@@ -3,10 +3,10 @@
 // and rotations are rounded. These are no errors: a correction of them would load the bonds of bodies at rest. A stretch x with
 // the rounding e has an error of max(0, |x| - e), the share s = max(0, 1 - e / |x|) of x.
 //
-// Of a set of bodies that bonds connect, all stretches and rotations are corrected by one share, the largest of its bonds.
-// Where bonds form a closed row, their stretches and rotations add up to nothing. If all of them are corrected by
-// the same share, some motion of the bodies does it. If each bond were corrected by its own share, no motion would: the forces in
-// the row would grow from sweep to sweep, and the bodies would turn against each other by what the solver leaves.
+// All bonds of a set of bodies that bonds connect are corrected by the same share, the largest share of these bonds.
+// Where bonds form a closed row, the sum of their stretches and rotations is zero. If all of them are corrected by
+// the same share, there is a motion of the bodies that corrects them. If each bond were corrected by its own share, there would be
+// none: the forces in the row would grow from sweep to sweep, and the residual of the solver would turn the bodies against each other.
 #pragma once
 
 #include <algorithm>

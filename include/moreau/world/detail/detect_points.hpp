@@ -100,7 +100,7 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
     member.start(double(lengths.resolution), kept_points_ == ContactPoints::few);
   if (!order_.is_valid()) order_.assign(std::span<const Aabb<S>>(boxes_), near_.pairs());
   runs_.resize(grains_.size());
-  // Members find nothing while the work is not shared.
+  // If the work is not shared, one member finds all contacts, and the others keep the empty lists of start().
   const std::size_t work = grains_.size() + pair_count();
   constexpr std::size_t least = 200;  // less is not worth a barrier
   team_.run_timed(TimedWork::detection, work, least, [&](int rank, int size, const TeamBarrier&) {

@@ -9,15 +9,16 @@
 //      the contacts, into rows of the operator (Pushes::carry()), of the same forces over this step (with springs by
 //      ContactSprings::scale()), with the push against the attraction (Attraction::add_to()). The memory of springs and
 //      bonds is added to b
-//   5. correct_overlaps(): bodies move, velocities do not
+//   5. correct_overlaps(): bodies are displaced and rotated; velocities stay as they are until 11
 //   6. ContactLaws::list_variants(): the table of all laws with their variants (each contact gets its own in 7)
 //   7. ContactLaws::offset_velocities(): the law of each contact, u before the step, and what chord and law add to b,
 //      from the corrected gaps
 //   8. solve(): p, by default with solve/coloured_gauss_seidel.hpp; limits the restitution. Pushes::store(): r of the
 //      contacts, p in their frames without the push against the attraction
 //   9. find_velocities(): after the impulses
-//  10. measure_losses(): the dissipation
-//  11. advance_configuration(): to the end of the step
+//  10. measure_losses(): the dissipation; yielding and breaking of bonds
+//  11. BodyShifts::turn_spins(): the angular velocities of bodies that 5 has rotated; advance_configuration(): to the end of the
+//      step; with springs ContactSprings::remember() (velocities for the next step) and move_free_bodies()
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Internal edges: contacts of a grain with an obstacle or a mesh wall that ends flush beside another one.
 //
 // Obstacles and walls whose tops lie in one plane, or the flush convex parts of a compound grain, are one surface for
-// a grain X that slides over them. But X overlaps the plane by rounding errors and by what the law leaves,
-// so that its corner meets the side of the next obstacle B, and would stop there. (Box2D: ghost vertices;
+// a grain X that slides over them. But X overlaps the plane by rounding errors and by the overlap that the law admits,
+// so that its corner touches the side of the next obstacle B, and would stop there. (Box2D: ghost vertices;
 // Jolt Physics and Bullet: internal edges.)
 //
 // Let C be a body that touches X with the outward normal m, and P the plane of C's surface there. If X lies
@@ -14,7 +14,7 @@
 //   - makes more than 45 degrees with m, as that of a side of B, or
 //   - is that between two nearest vertices or edges.
 //
-// Of a mesh wall B is the face, ridge or vertex that X touches. The facets of one mesh have no internal edges (mesh_wall.hpp).
+// If the body of B is a mesh wall, B is the face, ridge or vertex that X touches. The facets of one mesh have no internal edges (mesh_wall.hpp).
 //
 // Any step that is higher than the tolerance, a side wall, a ramp or a groove reaches above P and is left
 // as it is. If P of B separates X from C as well, both contacts stay. Only the geometry of the present step

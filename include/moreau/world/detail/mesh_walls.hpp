@@ -108,7 +108,7 @@ class MeshWalls {
     return find(body);
   }  ///< whether the body is one of the meshes
   /// How far the face, ridge or vertex of a mesh that a grain touches reaches from the centre of the mesh along a unit
-  /// vector [m]; nothing if the wall is no mesh. Of a face only the facets near the grain count.
+  /// vector [m]; nothing if the wall is no mesh. Only those facets of a face count that are near the grain.
   /// @param wall,grain indices of the bodies
   /// @param feature    of the contact, with the mesh as b
   std::optional<Scalar> reach(std::uint32_t wall, std::uint32_t grain, FeatureKey feature,

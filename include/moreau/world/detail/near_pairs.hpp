@@ -127,7 +127,8 @@ class NearPairs {
       valid = valid && pair.first < pair.second && pair.second < grains.size();
     return valid && caches_.are_valid(pairs_, grains, stale_);
   }
-  /// The members that a file has, see core/serialize.hpp; a setting of the detector stands second.
+  /// The members that a file contains, see core/serialize.hpp.
+  /// @param setting a member of the detector, which the file contains after the cell
   auto serialized_members_with(auto& setting) {
     return std::tie(cell_, setting, stale_, fat_, pairs_, shifts_, caches_, deformed_);
   }

@@ -13,7 +13,7 @@
 //     with it that moves. The result is that of the order of the contacts, in which shifts go up a stack in one sweep.
 //     Rows of one level share no such body, so that a CPU need not end a visit before it begins the next one.
 //
-// Threads share all of it, and no bit depends on their number:
+// Threads share all steps. The result is the same to the bit for any number of threads:
 //
 //  - contacts and bodies are searched in slices, whose results are put together in the order of the slices;
 //  - the sweeps are shared by the chunks of bodies of the contact solver (solve/body_chunks.hpp). The contacts inside a

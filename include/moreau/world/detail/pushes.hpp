@@ -29,8 +29,8 @@ class Pushes {
   using Row = typename Operator::Vector;
 
   /// Fills the rows from the impulses of the step before: the first guess of rigid contacts, the memory of the springs of
-  /// compliant contacts. Where the features of a pair have changed names, impulses go to the nearest contact. A bond
-  /// with springs leaves nothing: its springs have given up their energy when it broke.
+  /// compliant contacts. If the key of a contact is not found, its impulse is added to that of the nearest contact of its
+  /// pair, unless it is that of a bond with springs, whose energy was dissipated when the bond broke.
   /// @param before contacts of the step before
   /// @param old    their impulses, or their pushes against the attraction of that step, in their frames [N s]
   /// @param now    in, out: contacts of this step, which get the variants of their laws

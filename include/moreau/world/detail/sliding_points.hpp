@@ -18,13 +18,14 @@
 //     max(3 rho w |r| / sqrt(N), |m|).
 //
 // The first term is about 3e-4 of the velocity that the impulse of a contact gives in a step, for a body that lies on a
-// floor 3e-4 g h. Smaller tolerances do not reduce it, because 1e-4 is their default: sweeps that start from points that
-// bear against each other let the face creep, by several times their residual, until its points bear in one direction.
+// floor 3e-4 g h. Smaller tolerances do not reduce it, because 1e-4 is their default. If the tangential impulses of the points of
+// a face oppose each other at the start of the sweeps, the face has a velocity of several times the residual until the
+// impulses have one direction.
 // The residual is relative to the impulses of all contacts. Beside a body of large mass the velocity of a light body can
 // therefore have an error far larger than the first term. The second term has this error: if a point should stick, its
 // velocity is its natural map.
 //
-// Bodies that the pair does not touch have no part in it. With the impulses of all contacts, or with their residual, a light
+// Other bodies are not considered. With the impulses of all contacts, or with their residual, a light
 // body would keep its static friction in slip because a heavy one rests elsewhere, or because a wedge elsewhere is not solved.
 #pragma once
 

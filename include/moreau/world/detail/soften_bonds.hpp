@@ -16,11 +16,12 @@
 
 namespace moreau::detail {
 
-/// Solves the contact problem again while the strength of bonds that yield falls within the step: until the impulses
-/// differ from those of the strengths by no more than the tolerance of the solver, relative to all impulses on the bodies,
-/// as its residual does, and for each bond relative to its own strength: beside a large load elsewhere, too. An error of the impulses of a solution is an error of the velocity at which bonds yield. The last of at
-/// most BondList::max_solutions solutions, that of the caller included, is not compared any more: the report then says
-/// that the problem is not solved (`capped`).
+/// Solves the contact problem again while the strength of bonds that yield falls within the step. It ends if the impulses differ
+/// from those of the strengths by no more than the tolerance of the solver, in two measures: the difference of all bonds relative to
+/// all impulses on the bodies, as the residual of the solver; and that of each bond relative to its own strength, which a large load
+/// elsewhere does not hide. An error of the impulses of a solution is an error of the velocity at which bonds yield. At most
+/// BondList::max_solutions solutions are computed, that of the caller included. The last one is not compared any more: the report then
+/// says that the problem is not solved (`capped`).
 /// @param op       operator of the problem
 /// @param pushes   p of the present solution, see pushes.hpp [N s]
 /// @param roots    M^-1/2 of every body

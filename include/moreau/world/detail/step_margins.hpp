@@ -14,7 +14,7 @@
 //      m in the step. If none can, (1) holds for no contact that was left out: the solution is one of the
 //      problem with all contacts up to M. Otherwise the step is solved again with M for all pairs.
 //
-// Results are those of M, and what step 1 guesses changes no more than the time. The guess: let s_p be a bound
+// Results are those of M; the guess of step 1 affects the CPU time only. The guess: let s_p be a bound
 // on how far the bodies of pair p approach in the step, and s_i the largest s_p of the pairs of body i. A body that
 // is hit moves with the one that hits it, so that
 //
@@ -24,7 +24,7 @@
 //
 // The bound: points of both bodies at most R from the centre of a have relative velocities of at most
 // |u| + R |w|, u being the relative velocity of the two rigid motions at this centre and w that of their rotations.
-// Bodies that move together, such as grains and a turning cylinder wall, approach by nothing.
+// Bodies that move together, such as grains and a turning cylinder wall, do not approach.
 // The contacts of bonds (law/bonded.hpp) do not come from detection, which leaves these pairs out.
 // Near walls that turn, the contact problem adds the chord of the motion to u_n (chord_velocities.hpp). Where it is
 // negative it is at most the approach velocity before the step, which is then added to the bound of 2.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The velocities of the bodies in a step (stages 2 and 9 of impulse_dynamics.hpp), and what the contacts see of them.
+// The velocities of the bodies in a step (stages 2 and 9 of impulse_dynamics.hpp), and relative velocities of contacts that follow
+// from them.
 #pragma once
 
 #include <cstddef>
