@@ -200,7 +200,7 @@ class ColouredGaussSeidel {
                     Workspace<Operator, Law>& workspace) const {
     const SolveReport first =
         attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
-    // Worse than no impulses: the warm start or the acceleration made the sweeps diverge.
+    // The result is worse than without impulses: the warm start or the acceleration made the sweeps diverge.
     const bool diverged = first.relative_approach > 1;
     const int cap = diverged ? options_.max_sweeps : options_.cold_sweeps;
     if (!options_.accelerate || first.converged || cap == 0) return first;
@@ -231,8 +231,8 @@ class ColouredGaussSeidel {
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
-    // In a closed row of rigid bonds impulses can go on changing that no motion follows from. The changes of others
-    // that attract are relative to the attraction, the residual is relative to their load.
+    // In a closed row of rigid bonds impulses can go on changing without any effect on the motion. The changes at other contacts
+    // with an attraction are relative to the attraction, but the residual is relative to their load.
     bool always = false;
     if constexpr (AttractiveLaw<Law, typename Operator::Space>)
       always = !problem.attraction.pulls.empty();
@@ -290,8 +290,8 @@ class ColouredGaussSeidel {
   /// below `improvement` times that of the saved ones, and restored if it is `divergence` times as
   /// large.
   static constexpr double improvement = 0.5, divergence = 1e3;
-  /// Sweeps without an improvement after which plain sweeps take the place of accelerated ones, or those of
-  /// plain ones: with couples acceleration can circle for 20,000 sweeps around what 8,000 plain sweeps reach.
+  /// Sweeps without an improvement after which plain sweeps replace accelerated ones, or accelerated sweeps plain ones: with
+  /// couples accelerated sweeps can cycle for 20,000 sweeps around a solution that 8,000 plain sweeps reach.
   static constexpr int most_stalled = 5000;
 
   /// The sweeps up to the next stopping test. In the first interval, sweeps 1, 2, 4, 8, .. update

@@ -5,8 +5,8 @@
 //
 // A hub, a body with many partners such as a moving wall, would need one group for each of its
 // pairs. If it is much heavier than its partners, its pairs share groups, and the block of each of their points is
-// multiplied by heavier_by_hub() (hub_share.hpp), n being the number of points of the hub in a group. The pairs of a hub as light as its partners are not grouped: shared groups would take
-// n times the sweeps.
+// multiplied by heavier_by_hub() (hub_share.hpp), n being the number of points of the hub in a group. The pairs of a hub that
+// is as light as its partners do not share groups: shared groups would take n times the sweeps.
 // The groups of a hub that is heavier still form phases of their own: all groups of such a phase read
 // the velocity of the hub before the phase, so that the members of a team divide them, and n is the
 // number of points in the phase. All pairs of one hub have different partners.

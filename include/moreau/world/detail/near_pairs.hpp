@@ -38,7 +38,7 @@
 
 namespace moreau::detail {
 
-/// The list of the pairs, and what narrow phases keep of them. A pair is of the numbers of two grains. In a periodic
+/// The list of the pairs, with the caches of the narrow phase. A pair consists of the numbers of two grains. In a periodic
 /// cell it has a shift by whole cells that moves its second grain next to its first.
 template <class ShapeT, class BroadPhaseT>
 class NearPairs {

@@ -2,11 +2,11 @@
 // Projected Gauss-Seidel sweeps of the overlap correction. Contact c pushes its bodies apart by a multiplier p >= 0
 // along its normal: d += M^-1 J^T dp, where J is the change of its gap per shift d of the bodies.
 //
-//  1. Contacts that are too deep or nearly so are taken, and later those that the shifts so far could close. Each time
-//     the new contacts form a batch. A contact that no shift can close would change nothing. Only contacts whose gap is
+//  1. The sweeps take the contacts that are too deep or nearly so, and later those that the shifts so far could close. Each
+//     time the new contacts form a batch. A contact that no shift can close would change nothing. Only contacts whose gap is
 //     not far beyond the shifts are candidates; the others become candidates when the shifts have grown. The search for
-//     candidates leaves out blocks of contacts of which none is deep enough, and shifts are read of bodies with a row alone:
-//     few contacts of a packing take part.
+//     candidates skips blocks of contacts without a contact that is deep enough, and reads the shifts only of bodies that have a
+//     row. So it visits few contacts of a packing.
 //  2. A contact that is taken gets a row with J and M^-1 J^T: a visit then reads the row and two shifts, padded to whole
 //     SIMD registers.
 //  3. The rows of a batch are sorted by level: one more than the highest level of the rows before it that share a body
@@ -135,8 +135,8 @@ class OverlapSweeps {
     Scalar depth;
     std::uint32_t a, b, contact, part;
   };
-  /// The k-th contact of a batch: where it stands among the taken ones, and its level. Of the k-th level of the batch:
-  /// its rows, then its next free row.
+  /// The k-th contact of a batch: its index among the taken contacts, and its level. `next` belongs to the k-th level of the
+  /// batch: the number of its rows, then its next free row.
   struct Ordered {
     std::uint32_t taken, level, next;
   };

@@ -43,10 +43,11 @@
 // Without friction, and if a <= 0, |x|^2 <= -2 r . (u_i + a) <= -4 x . y with x = M^-1/2 J^T r and y = h M^-1/2 f, and so
 // E(r) <= -x . y / 2 <= 2 h^2 f . M^-1 f.
 //
-// Between prescribed bodies nothing is exchanged: they end islands. A periodic cell that moves by
+// Prescribed bodies separate islands, because no impulse changes their motion. A periodic cell that moves by
 // its stress is a body that all contacts touch: they are one island, with the energy of the bodies and of the cell, and a
 // has what the stress changes of its rate. u and u_f are relative to the prescribed bodies, to the chord of their motion
-// where they turn (chord_velocities.hpp): nothing above asks how these move, and their work is not counted. u_i has the
+// where they turn (chord_velocities.hpp). The equations above do not contain the motion of the prescribed bodies, and their work is
+// not counted. u_i has the
 // spin that belongs to the angular momentum before the step in the configuration of the contacts: that the inertia turns
 // is no work of the impulses. With theta > 1/2 the integrator takes energy, which is not counted either.
 //
@@ -56,7 +57,7 @@
 // multiplied by the largest s for which G(s r_0) <= 0; if this changes no relative velocity by more than a hundred
 // thousandth of the largest of the island, or of a hundredth of what the loads of the step give its bodies, the step is as
 // solved as it was. Problems without any restitution are treated in the same way.
-// An island with bonds is left as it is: to multiply p = r + h T of a bond by s would load it.
+// The impulses of an island with bonds are not changed: multiplying p = r + h T of a bond by s would change its load r.
 // Energy counts from that of the impulses at velocities of 1e-12 of the grain size per step on, or of the rounding of the
 // velocities of the bodies: bodies at rest, and those that touch and fall together, move less.
 //
@@ -165,7 +166,7 @@ class RestitutionLimit {
     bool acts = false;      ///< r is not zero
   };
   using Island = IslandEnergy<Scalar>;
-  /// Changes of velocities that are none, relative to those of an island: as velocity_tolerance of ColouredOptions [-].
+  /// Smaller changes of velocities, relative to those of an island, are neglected: as velocity_tolerance of ColouredOptions [-].
   static constexpr double small = std::max(1e-5, Island::rounding);
 
   /// Whether impulses without restitution never add energy. Springs that a user has compressed release theirs, and a law
@@ -291,9 +292,9 @@ class RestitutionLimit {
       return found;
     }
   }
-  /// By how much rest_share() of an island changes relative velocities at most, as a share of the largest of this island
-  /// without impulses, or of the velocity that errors of its bodies are relative to at least: where bodies fall together the
-  /// largest is itself rounding.
+  /// The largest change of a relative velocity by rest_share(), as a share of the largest relative velocity of the same island
+  /// without impulses, or of the velocity that errors of its bodies are relative to at least if that is larger: if bodies fall
+  /// together, the relative velocities without impulses are rounding.
   MOREAU_COLD double change_by_shares(const Bodies<S>& bodies, const Problem& problem) {
     if (!damps()) return 0;
     for (std::size_t c = 0; c < resting_.size(); ++c) {

@@ -8,8 +8,8 @@
 //
 // Condition 1 alone would not do. The points of a face, and all contacts of a structure at rest, can share a
 // tangential load in many ways: the cone of some points is reached long before anything slides. If such a point lost
-// its static friction, its neighbours would have to bear more, and the face would slide below its threshold. Rigid bodies
-// with condition 2 satisfy condition 3. Springs do not: points of a face then slip one after another.
+// its static friction, its neighbours would have to carry more, and the face would slide below its threshold. The points of rigid
+// bodies satisfy condition 3 if they satisfy condition 2. Under springs this is not so: points of a face slip one after another.
 //
 // The rest speed of a pair of bodies. Let rho be the largest of the solver's tolerance, 1e-4 and sqrt(epsilon).
 // Over the N points of the pair that push, let w be the mean of the diagonal of W, |r| the norm of the

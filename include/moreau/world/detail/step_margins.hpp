@@ -133,7 +133,7 @@ class StepMargins {
     for (std::size_t p = 0; p < near_.size(); ++p)
       for (const std::size_t k : {bounds.pairs[p].first, bounds.pairs[p].second})
         of_grain_[k] = std::max(of_grain_[k], near_[p]);
-    // A grain whose motion is prescribed is not moved by a hit: the grain that meets it decides.
+    // Impacts do not move a grain of prescribed motion: only the bound of the other grain counts.
     for (std::size_t k = 0; k < of_grain_.size(); ++k)
       if (bounds.is_prescribed(k)) of_grain_[k] = 0;
   }
