@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/shape/concepts.hpp"
 
@@ -14,7 +15,7 @@ namespace moreau::detail {
 /// width along the normal of a face, for a compound that of its thinnest part, for another shape the smallest extent of its
 /// box in body axes.
 template <class ShapeT>
-typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
+MOREAU_INLINED inline typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
   if constexpr (CompoundShape<ShapeT>) {
