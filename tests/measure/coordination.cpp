@@ -2,7 +2,10 @@
 #include "moreau/measure/coordination.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <doctest/doctest.h>
+#include <random>
+#include <vector>
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/contact_classes.hpp"
@@ -36,6 +39,57 @@ TEST_CASE("coordination() of a stack counts pairs, not contact points, and walls
   const Coordination without = coordination(world, 1);
   CHECK(without.rattlers == 1);
   CHECK(without.neighbours == doctest::Approx(5 / 3.0));
+}
+
+namespace {
+
+/// The rattlers by the definition: passes over all bodies until none is found.
+std::size_t rattlers_by_passes(const std::vector<Contact<Space<2>>>& pairs, std::size_t bodies,
+                               std::size_t fewest, const auto& is_grain) {
+  std::vector<bool> taken(bodies, false);
+  std::size_t count = 0;
+  for (bool found = true; found;) {
+    found = false;
+    std::vector<std::size_t> neighbours(bodies, 0);
+    for (const auto& pair : pairs)
+      if (!taken[pair.a] && !taken[pair.b]) ++neighbours[pair.a], ++neighbours[pair.b];
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (!taken[i] && is_grain(i) && neighbours[i] < fewest) taken[i] = found = true, ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("rattlers are those that passes over all grains find, also of a long chain") {
+  using S = Space<2>;
+  std::mt19937 random(3);
+  for (int round = 0; round < 40; ++round) {
+    const std::uint32_t bodies = 30;
+    std::vector<Contact<S>> pairs;
+    std::bernoulli_distribution touches(0.12);
+    for (std::uint32_t a = 0; a < bodies; ++a)
+      for (std::uint32_t b = a + 1; b < bodies; ++b)
+        if (touches(random)) {
+          Contact<S>& pair = pairs.emplace_back();
+          pair.a = a, pair.b = b;
+        }
+    const std::vector<S::Vector> push(pairs.size(), S::Vector::UnitX());
+    const auto is_grain = [](std::size_t i) { return i % 7 != 0; };
+    for (const std::size_t fewest : {0u, 1u, 2u, 3u, 4u}) {
+      const auto found = CoordinationCounter<S>().count(pairs, push, bodies, is_grain, fewest);
+      CHECK(found.rattlers == rattlers_by_passes(pairs, bodies, fewest, is_grain));
+    }
+  }
+  // A free chain loses its two ends, and so on. By passes this takes 1e10 operations.
+  constexpr std::uint32_t count = 100000;
+  std::vector<Contact<S>> chain(count - 1);
+  for (std::uint32_t c = 0; c + 1 < count; ++c) chain[c].a = c, chain[c].b = c + 1;
+  const std::vector<S::Vector> push(chain.size(), S::Vector::UnitX());
+  const auto found = CoordinationCounter<S>().count(
+      chain, push, count, [](auto) { return true; }, 2);
+  CHECK(found.rattlers == count);
+  CHECK(found.pairs == 0);
 }
 
 TEST_CASE_TEMPLATE("a grain on obstacles has the coordination number of one on walls", ShapeT,

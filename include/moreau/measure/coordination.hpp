@@ -53,8 +53,7 @@ class CoordinationCounter {
             impulses.size(), "must be the number of points");
     find_pairs(points, impulses, body_count);
     Coordination result;
-    taken_.assign(body_count, 0);
-    while (std::size_t found = take_rattlers(is_grain, fewest)) result.rattlers += found;
+    result.rattlers = take_rattlers(is_grain, fewest);
     std::size_t ends = 0, point_ends = 0;
     for (const Pair& pair : pairs_) {
       if (taken_[pair.a] != 0 || taken_[pair.b] != 0) continue;
@@ -95,25 +94,43 @@ class CoordinationCounter {
     }
   }
 
+  /// Removes the rattlers one by one. A removal takes a neighbour from each partner, which may make it a rattler; the
+  /// order does not matter. The work is proportional to the numbers of bodies and pairs.
   std::size_t take_rattlers(const auto& is_grain, std::size_t fewest) {
-    std::size_t found = 0;
-    for (std::uint32_t body = 0; body < taken_.size(); ++body) {
-      if (taken_[body] != 0 || !is_grain(body) || neighbours_[body] >= fewest) continue;
-      taken_[body] = 1;
-      ++found;
-    }
-    if (found == 0) return 0;
-    std::fill(neighbours_.begin(), neighbours_.end(), 0);
+    taken_.assign(neighbours_.size(), 0);
+    if (fewest == 0) return 0;
+    // The partners of body i are partners_[first_[i]] to partners_[first_[i + 1] - 1].
+    first_.assign(neighbours_.size() + 1, 0);
+    for (std::size_t i = 0; i < neighbours_.size(); ++i) first_[i + 1] = first_[i] + neighbours_[i];
+    partners_.resize(first_.back());
+    next_.assign(first_.begin(), first_.end() - 1);
     for (const Pair& pair : pairs_) {
-      if (taken_[pair.a] != 0 || taken_[pair.b] != 0) continue;
-      ++neighbours_[pair.a];
-      ++neighbours_[pair.b];
+      partners_[next_[pair.a]++] = pair.b;
+      partners_[next_[pair.b]++] = pair.a;
     }
-    return found;
+    rattlers_.clear();
+    const auto take = [&](std::uint32_t body) {
+      if (taken_[body] != 0 || neighbours_[body] >= fewest || !is_grain(body)) return;
+      taken_[body] = 1;
+      rattlers_.push_back(body);
+    };
+    for (std::uint32_t body = 0; body < neighbours_.size(); ++body) take(body);
+    for (std::size_t k = 0; k < rattlers_.size(); ++k) {
+      const std::uint32_t body = rattlers_[k];
+      for (std::size_t n = first_[body]; n < first_[body + 1]; ++n) {
+        const std::uint32_t partner = partners_[n];
+        --neighbours_[partner];
+        take(partner);
+      }
+    }
+    return rattlers_.size();
   }
 
   std::vector<Pair> pairs_;
   std::vector<std::size_t> neighbours_;
+  std::vector<std::size_t> first_, next_;
+  std::vector<std::uint32_t> partners_;
+  std::vector<std::uint32_t> rattlers_;  // in the order in which they are removed
   std::vector<char> taken_;
 };
 
