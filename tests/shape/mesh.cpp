@@ -118,6 +118,15 @@ TEST_CASE_TEMPLATE("a closed surface in every form", S, Plane, Volume) {
   CHECK_THROWS_WITH(star_mesh<S>([](const auto& u) { return u[0]; }),
                     doctest::Contains("star_mesh: radius"));
   CHECK(fault(tetrapod_mesh<S>(0.02, 0.006)) == "none");
+  for (const double width : {0.006, 0.002})
+    for (const auto& leg : detail::simplex_directions<S>()) {
+      double reach = 0;
+      for (const auto& x : tetrapod_mesh<S>(0.02, width, 6).vertices)
+        reach = std::max(reach, x.dot(leg));
+      CHECK(reach == doctest::Approx(0.02).epsilon(1e-12));
+    }
+  CHECK_THROWS_WITH(tetrapod_mesh<S>(0.1, 1e-4),
+                    doctest::Contains("tetrapod_mesh: fineness = 4 is too low for legs so thin"));
   CHECK(fault(ballast_mesh<S>(0.02, 3, 7)) == "none");
   CHECK(volume_of(pebble_mesh<S>(1, 0, 1, 5)) ==
         doctest::Approx(S::dim == 2 ? 3.14159 : 4.18879).epsilon(1e-2));

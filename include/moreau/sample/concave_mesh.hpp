@@ -112,14 +112,15 @@ FacetMesh<S> pebble_mesh(typename S::Scalar radius, int dents, std::uint64_t see
 /// @param length of the legs, from the origin [m], > 0
 /// @param width  of the legs: their radius [m], > 0 and < length
 /// @param fineness see star_mesh()
-/// @throws std::invalid_argument outside these ranges
+/// @throws std::invalid_argument outside these ranges, and for legs so thin that the end of one has fewer than D vertices:
+///         such a leg would be a spike, shorter than the others
 template <EuclideanSpace S>
 FacetMesh<S> tetrapod_mesh(typename S::Scalar length, typename S::Scalar width, int fineness = 4) {
   using T = typename S::Scalar;
   require(width > 0 && width < length, "tetrapod_mesh", "width", width,
           "m must be > 0 and < length");
   const auto legs = detail::simplex_directions<S>();
-  return star_mesh<S>(
+  FacetMesh<S> mesh = star_mesh<S>(
       [&](const typename S::Vector& u) {
         T reach = width;
         for (const auto& leg : legs) {
@@ -130,6 +131,14 @@ FacetMesh<S> tetrapod_mesh(typename S::Scalar length, typename S::Scalar width, 
         return reach;
       },
       fineness);
+  for (const auto& leg : legs) {
+    const auto at_end =
+        std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                      [&](const typename S::Vector& x) { return x.dot(leg) > T(0.99) * length; });
+    require(at_end >= S::dim, "tetrapod_mesh", "fineness", fineness,
+            "is too low for legs so thin: take a higher one, or wider legs");
+  }
+  return mesh;
 }
 
 /// A ballast stone with concavities: a convex body of random planes, of which lumps are missing.
