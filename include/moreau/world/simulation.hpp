@@ -36,6 +36,7 @@
 #include "moreau/world/cell_motion.hpp"
 #include "moreau/world/contact_detector.hpp"
 #include "moreau/world/defaults.hpp"
+#include "moreau/world/detail/attraction_forces.hpp"
 #include "moreau/world/detail/bridges.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/force_dynamics.hpp"

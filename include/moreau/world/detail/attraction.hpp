@@ -31,7 +31,7 @@
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
-#include "moreau/world/detail/bridges.hpp"
+#include "moreau/world/detail/attraction_forces.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
 namespace moreau::detail {
