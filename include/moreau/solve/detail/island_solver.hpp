@@ -158,7 +158,7 @@ class IslandSolver {
     std::fill(moved_.begin(), moved_.end(), 0);
     for (Small& one : small_) one.error = one.start_error;
   }
-  /// Writes what the islands have come to.
+  /// Writes the results of the islands.
   void write(SolveReport& report) const {
     report.islands = report.unsolved_islands = 0;
     report.velocity_error = 0;
@@ -209,8 +209,9 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 11.1 * unit,
                           warm_visits = 50 * unit;
 
-  /// Of the island that take() took. Where impulses change the velocity of a body by less, its errors are relative to its
-  /// load, to its rounding and to what it bore before: a structure that lost its support, and now falls freely, is solved.
+  /// Starts Newton's method for the island that take() took. If impulses change the velocity of a body by little, the error of the
+  /// body is relative to its load, to its rounding and to its load of the step before: otherwise the velocities of a structure that
+  /// lost its support, and now falls freely, would have no scale.
   double start_newton(const Problem& problem, Impulses impulses) {
     return newton_.start(impulses, [&](std::uint32_t body) {
       return std::max(least_share * borne_[body], problem.least_scale(body, tolerance_));
@@ -227,8 +228,8 @@ class IslandSolver {
     return !(closing > least);
   }
   /// Solves an island whose bodies fall together or apart from no impulses, if these are nearer to a solution than others.
-  /// Every contact is then at the apex of its cone, where Newton's method finds its way from a load that is no more, or
-  /// from the small impulses that sweeps have left, only slowly: the response changes there with every direction.
+  /// Every contact is then at the apex of its cone, where the derivative of the map depends on the direction. Newton's method
+  /// converges slowly there from the impulses of a removed load, or from the small impulses that sweeps have left.
   /// @param defect of the others, by start_newton()
   /// @returns whether it succeeds; if not, the impulses are those of start_newton()
   bool attempt_open(const Problem& problem, Small& one, Impulses impulses, double defect) {
@@ -357,7 +358,7 @@ class IslandSolver {
         const double sum = rows_a.row(k).dot(of_a) + rows_b.row(k).dot(of_b);
         const double terms = rows_a.row(k).cwiseAbs().dot(of_a.cwiseAbs()) +
                              rows_b.row(k).cwiseAbs().dot(of_b.cwiseAbs());
-        // An offset of the law that is smaller has no digit that is known.
+        // A smaller offset of the law is below the rounding of the sum.
         constexpr double several = 4 * double(std::numeric_limits<float>::epsilon());
         if (std::abs(rounded[k] - sum) <= several * terms) exact[k] = sum;
       }
@@ -374,7 +375,7 @@ class IslandSolver {
   }
   /// Keeps the impulses that the direct method has found, if they are good enough.
   /// @param error of these
-  /// @param start_error of those from which it started, at least: the error is known by nothing else if it fails
+  /// @param start_error lower bound for the impulses from which it started: the only known error if the method fails
   /// @returns whether it has succeeded
   bool keep(Small& one, Impulses impulses, double error, double start_error) {
     return keep(one, impulses, error, start_error, newton_.is_better());

@@ -173,7 +173,7 @@ class BondList {
     contacts.variants.assign(contacts.size(), 0);
     for_each([&](std::size_t, std::size_t c) { contacts.variants[c] = 1; });
   }
-  /// Hides the impulses of bonds, of which springs have no memory, while `use` is called.
+  /// Sets the impulses of bonds to 0 during `use`: the springs of a bond follow from its stretch, not from its impulse.
   void hide(std::span<Row> impulses, const auto& use) {
     hidden_.clear();
     for_each([&](std::size_t, std::size_t c) {
@@ -193,7 +193,7 @@ class BondList {
           bonds_[i].strength_left * materials.laws()[contacts.points[c].law].strength().tension;
     });
   }
-  /// Adds to b what bonds are stretched, and the chords of their points.
+  /// Adds to b the stretch of the bonds divided by h, and the chords of their points.
   /// @param context StepContext of the step
   /// @param pulls   h T of each contact [N s]
   /// @param before  velocities before the step, in the configuration of the contacts [m/s, rad/s]
@@ -240,7 +240,7 @@ class BondList {
   /// attraction.
   /// @param pushes p of the solution, see pushes.hpp [N s]
   /// @param pulls  impulses of the attraction in the solution [N s]
-  /// @returns the sum of the squares of the impulses that these strengths differ from the attraction by
+  /// @returns the sum over the bonds of the squares of h (strength - attraction in the solution) [N^2 s^2]
   double find_strengths(const Materials<Law>& materials, const Operator& op,
                         const ContactsOf<Law, S>& contacts, std::span<const Row> pushes,
                         std::span<const Scalar> pulls, Scalar step) {
@@ -302,8 +302,8 @@ class BondList {
       broken_[i] = yields_[i].loss != 0 && !(bonds_[i].strength_left > yields_[i].loss);
     });
   }
-  /// Lets the bonds yield. Moves the energy that they took in the step from friction and rolling to StepReport::fracture, and removes
-  /// those that broke.
+  /// Applies the yielding of the step to the bonds. Counts the energy that they dissipated as StepReport::fracture in place of friction
+  /// and rolling, and removes the bonds that broke.
   /// @param losses  function: contact c -> its ContactLosses
   /// @param springs ContactSprings or NoSprings
   void end_step(ContactsOf<Law, S>& contacts, const auto& losses, auto& springs,
