@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
@@ -16,6 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "moreau/mesh/check_mesh.hpp"
@@ -698,6 +700,126 @@ TEST_CASE("quadrilaterals are divided, groups are read one by one") {
   CHECK(volume_of(groups[0].mesh) == doctest::Approx(1));
   CHECK(volume_of(groups[1].mesh) == doctest::Approx(1. / 6));
   CHECK(read_mesh(path, 1.0).facets.size() == 16);
+}
+
+TEST_CASE("groups of the same name are one group within an object, not across objects") {
+  const TemporaryFolder folder("mesh");
+  const auto tetrahedron = [](int x) {
+    std::ostringstream text;
+    text << "v " << x << " 0 0\nv " << x + 1 << " 0 0\nv " << x << " 1 0\nv " << x << " 0 1\n";
+    for (const char* corners : {"-4 -2 -3", "-4 -3 -1", "-3 -2 -1", "-4 -1 -2"})
+      text << "f " << corners << '\n';
+    return text.str();
+  };
+  const auto path =
+      write(folder, "objects.obj",
+            "o A\ng default\n" + tetrahedron(0) + "g other\n" + tetrahedron(5) + "g default\n" +
+                tetrahedron(2) + "o B\ng default\n" + tetrahedron(10) + "o B\n" + tetrahedron(20));
+  const auto groups = read_mesh_groups(path, 1.0);
+  REQUIRE(groups.size() == 4);
+  const char* names[] = {"default", "other", "default", "B"};
+  const double volumes[] = {2. / 6, 1. / 6, 1. / 6, 1. / 6};
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    CHECK(groups[g].name == names[g]);
+    CHECK(volume_of(groups[g].mesh) == doctest::Approx(volumes[g]));
+  }
+  CHECK(read_mesh(path, 1.0).facets.size() == 20);
+  // Each solid of an STL file is complete, whatever its name.
+  std::string solids = Parts::cube().stl();
+  solids += Parts::cube(Vector(5, 0, 0)).stl();
+  const auto of_stl = read_mesh_groups(write(folder, "solids.stl", solids), 1.0);
+  REQUIRE(of_stl.size() == 2);
+  for (const auto& group : of_stl) CHECK(volume_of(group.mesh) == doctest::Approx(1));
+}
+
+namespace {
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (const auto& f : mesh.facets) {
+    const Vector &a = mesh.vertices[f[0]], &b = mesh.vertices[f[1]], &c = mesh.vertices[f[2]];
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  return area;
+}
+
+/// A polygon as a file: one vertex per corner.
+std::string polygon_file(const std::vector<Vector>& corners, bool reversed = false) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const Vector& x : corners) text << "v " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+  text << 'f';
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    text << ' ' << (reversed ? corners.size() - k : k + 1);
+  text << '\n';
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("a polygon with holes keeps them open, also with a vertex for each corner") {
+  const TemporaryFolder folder("mesh");
+  // The bottom of a silo with one and with two square outlets; a cut joins the rim and each outlet.
+  const std::vector<Vector> outline{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}},
+      hole{{1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}};
+  std::vector<Vector> one = outline, two{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}};
+  one.insert(one.end(), hole.begin(), hole.end());
+  two.insert(two.end(),
+             {Vector(2, 2, 0), Vector(2, 1.5, 0), Vector(1.5, 1.5, 0), Vector(1.5, 2, 0),
+              Vector(2, 2, 0), Vector(3, 3, 0), Vector(0, 3, 0), Vector(0, 0, 0), Vector(1, 1, 0),
+              Vector(0.5, 1, 0), Vector(0.5, 1.2, 0), Vector(1, 1.2, 0), Vector(1, 1, 0)});
+  const std::pair<std::vector<Vector>, double> cases[] = {{one, 8}, {two, 9 - 0.25 - 0.1}};
+  for (const auto& [corners, area] : cases)
+    for (const bool reversed : {false, true})
+      for (std::size_t first = 0; first < corners.size(); ++first) {
+        CAPTURE(first);
+        std::vector<Vector> turned = corners;
+        std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first), turned.end());
+        const auto mesh =
+            read_mesh(write(folder, "bottom.obj", polygon_file(turned, reversed)), 1.0);
+        CHECK(area_of(mesh) == doctest::Approx(area));
+        CHECK_FALSE(find_wall_fault<Space<3>>(mesh).has_value());
+        for (const auto& f : mesh.facets) {
+          const Vector middle =
+              (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]) / 3;
+          if (&corners == &cases[0].first)
+            CHECK_FALSE((middle[0] > 1 && middle[0] < 2 && middle[1] > 1 && middle[1] < 2));
+        }
+      }
+}
+
+TEST_CASE("faces with thousands of corners are divided in a time that grows as their reflex ones") {
+  const TemporaryFolder folder("mesh");
+  for (const bool gear : {false, true}) {
+    const int teeth = gear ? 1000 : 10000, corners = gear ? 4 : 1;
+    std::vector<Vector> outline;
+    double area = 0;
+    for (int k = 0; k < teeth; ++k)
+      for (int c = 0; c < corners; ++c) {
+        const double angle = 2 * 3.14159265358979323846 * (k + c / 4.) / teeth;
+        outline.push_back((c == 1 || c == 2 ? 1.01 : 1.) *
+                          Vector(std::cos(angle), std::sin(angle), 0));
+      }
+    for (std::size_t k = 0; k < outline.size(); ++k)
+      area += outline[k].cross(outline[(k + 1) % outline.size()])[2] / 2;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto mesh = read_mesh(write(folder, "cap.obj", polygon_file(outline)), 1.0);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    CHECK(mesh.facets.size() == outline.size() - 2);
+    CHECK(area_of(mesh) == doctest::Approx(area));
+    MESSAGE(outline.size() << " corners: " << took.count() << " s");
+  }
+}
+
+TEST_CASE("curved surfaces of an OBJ file are refused: without them a wall would have openings") {
+  const TemporaryFolder folder("mesh");
+  const std::string patch = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\ncstype bezier\ndeg 1 1\n";
+  CHECK_THROWS_WITH_AS(
+      read_mesh(write(folder, "patch.obj", patch + "surf 0 1 0 1 1 2 3 4\nend\n"), 1.0),
+      doctest::Contains("line 8: 'surf' is a free-form surface"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(read_mesh(write(folder, "curve.obj", patch + "curv 0 1 1 2\nend\n"), 1.0),
+                       doctest::Contains("line 8: 'curv'"), std::runtime_error);
+  CHECK(read_mesh(write(folder, "plain.obj", patch), 1.0).facets.size() == 1);
 }
 
 TEST_CASE(

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <limits>
@@ -21,55 +20,13 @@
 #include "io/faults.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/vtk_samples.hpp"
+#include "io/vtp.hpp"
 
 namespace {
 
 using namespace moreau;
 using namespace vtk_samples;
 using On = VtkPolyData::On;
-
-/// Reads the files of VtkPolyData. It understands only the subset of XML that these files use.
-class Vtp {
- public:
-  explicit Vtp(const std::filesystem::path& path) : text_(read(path)) {
-    const std::string marker = "<AppendedData encoding=\"raw\">\n_";
-    const auto start = text_.find(marker);
-    REQUIRE(start != std::string::npos);
-    bytes_ = start + marker.size();
-    end_ = text_.rfind("\n</AppendedData>\n</VTKFile>\n");
-    REQUIRE(end_ != std::string::npos);
-    CHECK(text_.find("header_type=\"UInt64\"") < start);
-    CHECK(text_.find("byte_order=\"LittleEndian\"") < start);
-  }
-  std::size_t count(const std::string& what) const {
-    return std::stoul(attribute(text_.find("<Piece"), "NumberOf" + what));
-  }
-  /// The array with the given name in a section, for example in "CellData".
-  template <class T>
-  std::vector<T> array(const std::string& section, const std::string& name) const {
-    const auto begin = text_.find("<" + section + ">");
-    const auto at = text_.find("Name=\"" + name + "\"", begin);
-    REQUIRE(at < text_.find("</" + section + ">", begin));
-    const auto tag = text_.rfind("<DataArray", at);
-    CHECK(attribute(tag, "type") == vtk_type_name<T>());
-    CHECK(attribute(tag, "format") == "appended");
-    const std::size_t offset = bytes_ + std::stoul(attribute(tag, "offset"));
-    std::uint64_t size = 0;
-    std::memcpy(&size, text_.data() + offset, sizeof size);
-    REQUIRE(offset + sizeof size + size <= end_);
-    std::vector<T> values(size / sizeof(T));
-    std::memcpy(values.data(), text_.data() + offset + sizeof size, size);
-    return values;
-  }
-
- private:
-  std::string attribute(std::size_t from, const std::string& name) const {
-    const auto at = text_.find(name + "=\"", from) + name.size() + 2;
-    return text_.substr(at, text_.find('"', at) - at);
-  }
-  std::string text_;
-  std::size_t bytes_ = 0, end_ = 0;
-};
 
 }  // namespace
 
@@ -256,6 +213,26 @@ TEST_CASE("arrays that do not fit and folders that do not exist are refused") {
   CHECK_THROWS_AS(data.write(folder / "missing" / "x.vtp"), std::system_error);
   data.write(folder / "x.vtp");
   CHECK(Vtp(folder / "x.vtp").array<double>("PointData", "uv") == two);
+}
+
+TEST_CASE("more points or corners than indices of 32 bits can number are refused") {
+  CHECK(VtkPolyData::most == 2147483647u);
+  VtkPolyData data(5);
+  for (int round = 0; round < 2; ++round) {
+    for (int k = 0; k < 5; ++k) CHECK(data.add_point(Eigen::Vector3d(k, 0, 0)) == k);
+    CHECK_THROWS_WITH_AS(data.add_point(Eigen::Vector3d(5, 0, 0)),
+                         doctest::Contains("VtkPolyData::add_point: points = 6 are more than"),
+                         std::invalid_argument);
+    const std::int32_t face[] = {0, 1, 2};
+    data.add_cell(VtkPolyData::Cells::polygons, face);
+    CHECK_THROWS_WITH_AS(data.add_cell(VtkPolyData::Cells::polygons, face),
+                         doctest::Contains("VtkPolyData::add_cell: corners = 6 are more than"),
+                         std::invalid_argument);
+    data.add_cell(VtkPolyData::Cells::lines, std::span(face).first(2));
+    CHECK(data.point_count() == 5);
+    CHECK(data.cell_count() == 2);
+    data.clear();
+  }
 }
 
 TEST_CASE("points and cells after an array of them are refused") {

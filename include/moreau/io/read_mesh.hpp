@@ -135,7 +135,8 @@ TriangleMesh<T> read_mesh(const std::filesystem::path& path, T unit) {
 /// Reads each group or object of a file into a mesh of its own: the convex parts of a concave grain
 /// that another program has made.
 /// @param path of an .obj, .stl or .ply file; a PLY file has one group. Groups of the same name are
-///             one group
+///             one group, unless a line "o" of an OBJ file begins another object between them. Each solid of an STL file is a
+///             group of its own
 /// @param unit length of one unit of the file [m]
 /// @returns the groups with triangles, in the order of the file; each has the vertices of its own
 /// @throws std::invalid_argument, std::runtime_error as read_mesh()

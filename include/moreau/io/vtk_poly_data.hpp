@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <locale>
 #include <span>
 #include <sstream>
@@ -60,6 +61,12 @@ class VtkPolyData {
   enum class Cells : std::uint8_t { vertices, lines, polygons };
   /// Whether the values of an array belong to points or to cells.
   enum class On : std::uint8_t { points, cells };
+  /// The largest number of points, and of corners of the cells of a kind: their indices have 32 bits.
+  static constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+
+  VtkPolyData() = default;
+  /// @param fewer a lower limit than `most`
+  explicit VtkPolyData(std::size_t fewer) : most_(std::min(fewer, most)) {}
 
   /// Removes all data and keeps the memory.
   void clear() {
@@ -72,15 +79,20 @@ class VtkPolyData {
   /// Adds a point.
   /// @param x world axes [m]; a plane vector gets z = 0
   /// @returns the index of the point
+  /// @throws std::invalid_argument if there are `most` points
   template <class Vector>
   std::int32_t add_point(const Vector& x) {
+    require(point_count() < most_, "VtkPolyData::add_point", "points", point_count() + 1, too_many);
     for (int k = 0; k < 3; ++k) points_.push_back(k < x.size() ? static_cast<float>(x[k]) : 0.0f);
     return static_cast<std::int32_t>(point_count() - 1);
   }
   /// Adds a cell.
   /// @param points indices of its points, as add_point() returned them; not checked
+  /// @throws std::invalid_argument if the cells of this kind would have more than `most` corners
   void add_cell(Cells kind, std::span<const std::int32_t> points) {
     CellList& cells = cells_[static_cast<std::size_t>(kind)];
+    require(points.size() <= most_ - cells.points.size(), "VtkPolyData::add_cell", "corners",
+            cells.points.size() + points.size(), too_many);
     cells.points.insert(cells.points.end(), points.begin(), points.end());
     cells.ends.push_back(static_cast<std::int32_t>(cells.points.size()));
   }
@@ -139,6 +151,9 @@ class VtkPolyData {
   }
 
  private:
+  static constexpr const char* too_many =
+      "are more than a file can number: take a lower VtkOptions::fineness, or write several files";
+
   struct CellList {
     std::vector<std::int32_t> points, ends;
   };
@@ -179,6 +194,7 @@ class VtkPolyData {
            "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
   }
 
+  std::size_t most_ = most;
   std::vector<float> points_;
   std::array<CellList, 3> cells_;
   std::vector<Array> arrays_;

@@ -41,7 +41,12 @@ struct MeshFile {
     triangles.push_back(corners);
     group_of.push_back(current_group);
   }
-  /// Later triangles belong to this group; a name that comes again is the same group.
+  /// The groups of the object before are complete: a name that comes again is another group.
+  void begin_object(std::string_view name) {
+    number_of_group.clear();
+    begin_group(name);
+  }
+  /// Later triangles belong to this group; a name that comes again in the same object is the same group.
   void begin_group(std::string_view name) {
     const auto next = static_cast<std::uint32_t>(groups.size());
     current_group = number_of_group.try_emplace(std::string(name), next).first->second;
@@ -54,36 +59,59 @@ struct MeshFile {
 };
 
 /// Divides a plane polygon into triangles: cuts off corners that turn to the left and contain no
-/// other corner. Corners on a straight line are not cut off by themselves.
+/// other corner. Corners on a straight line are not cut off by themselves. Corners at the same place are one: a polygon
+/// with a hole passes twice through the two ends of the cut that joins its rim to the hole.
 inline void MeshFile::add_polygon(std::span<const std::uint32_t> corners) {
   if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
-  std::vector<std::uint32_t> ring(corners.begin(), corners.end());
+  const std::size_t count = corners.size();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (std::size_t k = 2; k < ring.size(); ++k)
-    normal +=
-        (vertices[ring[k - 1]] - vertices[ring[0]]).cross(vertices[ring[k]] - vertices[ring[0]]);
+  for (std::size_t k = 2; k < count; ++k)
+    normal += (vertices[corners[k - 1]] - vertices[corners[0]])
+                  .cross(vertices[corners[k]] - vertices[corners[0]]);
   const double flat = 1e-12 * normal.norm();
   const Eigen::Vector3d up = normal.normalized();
   const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return up.dot((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]));
   };
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    std::size_t ear = n;
-    for (std::size_t k = 0; k < n && ear == n; ++k) {
-      const std::uint32_t a = ring[(k + n - 1) % n], b = ring[k], c = ring[(k + 1) % n];
-      if (!(turn(a, b, c) > flat)) continue;
-      const bool is_empty = std::none_of(ring.begin(), ring.end(), [&](std::uint32_t x) {
-        return x != a && x != b && x != c && turn(a, b, x) >= 0 && turn(b, c, x) >= 0 &&
-               turn(c, a, x) >= 0;
-      });
-      if (is_empty) ear = k;
+  // The corners that are left, as a ring of places in `corners`.
+  std::vector<std::size_t> next(count), previous(count);
+  for (std::size_t k = 0; k < count; ++k) next[k] = (k + 1) % count, previous[next[k]] = k;
+  const auto is_convex = [&](std::size_t k) {
+    return turn(corners[previous[k]], corners[k], corners[next[k]]) > flat;
+  };
+  // If a corner lies in a triangle that is to be cut off, one that is not convex does. The angle of a corner does not grow.
+  std::vector<unsigned char> is_reflex(count, 0);
+  std::vector<std::size_t> reflex;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!is_convex(k)) is_reflex[k] = 1, reflex.push_back(k);
+  const auto is_ear = [&](std::size_t k) {
+    if (is_reflex[k] != 0 || !is_convex(k)) return false;
+    const std::uint32_t a = corners[previous[k]], b = corners[k], c = corners[next[k]];
+    return std::none_of(reflex.begin(), reflex.end(), [&](std::size_t other) {
+      if (is_reflex[other] == 0) return false;
+      const std::uint32_t x = corners[other];
+      if (turn(a, b, x) < 0 || turn(b, c, x) < 0 || turn(c, a, x) < 0) return false;
+      return vertices[x] != vertices[a] && vertices[x] != vertices[b] && vertices[x] != vertices[c];
+    });
+  };
+  std::size_t at = 0, stale = 0;
+  for (std::size_t left = count; left > 3; --left) {
+    std::size_t tried = 0;
+    for (; tried < left && !is_ear(at); ++tried) at = next[at];
+    if (tried == left)
+      at = next[at];  // not plane, or it crosses itself: the checks of meshes judge it
+    const std::size_t before = previous[at], after = next[at];
+    add_triangle({corners[before], corners[at], corners[after]});
+    next[before] = after, previous[after] = before;
+    for (const std::size_t k : {before, at, after})
+      if (is_reflex[k] != 0 && (k == at || is_convex(k))) is_reflex[k] = 0, ++stale;
+    if (2 * stale > reflex.size()) {
+      std::erase_if(reflex, [&](std::size_t k) { return is_reflex[k] == 0; });
+      stale = 0;
     }
-    if (ear == n) ear = 1;  // not plane, or it crosses itself: the checks of meshes judge it
-    add_triangle({ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]});
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+    at = after;
   }
-  add_triangle({ring[0], ring[1], ring[2]});
+  add_triangle({corners[previous[at]], corners[at], corners[next[at]]});
 }
 
 /// The words of a text, with the numbers of their lines.

@@ -32,11 +32,10 @@ inline std::uint32_t obj_corner(const MeshWords& words, std::string_view word, s
 /// @throws std::runtime_error naming the line of the first error
 inline MeshFile read_obj(std::string_view text) {
   constexpr std::array passed_over{
-      "vt",     "vn",     "vp",         "s",         "mg",       "usemtl",   "mtllib",
-      "usemap", "maplib", "lod",        "bevel",     "c_interp", "d_interp", "ctech",
-      "stech",  "call",   "shadow_obj", "trace_obj", "csh",      "cstype",   "deg",
-      "bmat",   "step",   "parm",       "trim",      "hole",     "scrv",     "sp",
-      "end",    "con",    "curv",       "curv2",     "surf"};
+      "vt",         "vn",        "vp",    "s",        "mg",       "usemtl", "mtllib", "usemap",
+      "maplib",     "lod",       "bevel", "c_interp", "d_interp", "ctech",  "stech",  "call",
+      "shadow_obj", "trace_obj", "csh",   "cstype",   "deg",      "bmat",   "step",   "parm",
+      "trim",       "hole",      "scrv",  "sp",       "end",      "con",    "curv2"};
   MeshFile file;
   MeshWords words(text);
   std::vector<std::uint32_t> corners;
@@ -51,8 +50,13 @@ inline MeshFile read_obj(std::string_view text) {
         corners.push_back(obj_corner(words, word, file.vertices.size()));
       if (corners.size() < 3) words.fail("a face must have at least 3 corners");
       file.add_polygon(corners);
-    } else if (word == "o" || word == "g") {
+    } else if (word == "o") {
+      file.begin_object(words.rest_of_line());
+    } else if (word == "g") {
       file.begin_group(words.rest_of_line());
+    } else if (word == "surf" || word == "curv") {
+      words.fail("'" + shown(word) +
+                 "' is a free-form surface or curve, which is not read: export triangles");
     } else if (word == "l" || word == "p") {
       words.fail("points and lines bound no solid");
     } else if (word.front() != '#' &&

@@ -53,7 +53,7 @@ inline MeshFile read_text_stl(std::string_view text) {
   };
   for (bool is_first = true; is_first || !words.is_at_end(); is_first = false) {
     expect("solid");
-    file.begin_group(words.rest_of_line());
+    file.begin_object(words.rest_of_line());
     while (true) {
       const std::string_view word = words.next();
       const std::string keyword = lower_case(word);
