@@ -245,6 +245,51 @@ TEST_CASE("bad options of a source and a sink are named") {
   CHECK(shaft.world.grain_count() == 0);
 }
 
+TEST_CASE("a grain that finds no room is the next one: large grains are not left out") {
+  World<Disk<>> world(0.01, Materials<LawOf<Disk<>>>(1, LawOf<Disk<>>(0.4)));
+  SourceOptions<Space<2>> options;
+  options.region = {{0.0, 0.0}, {0.1, 0.1}};
+  options.shapes = {world.add_shape(Disk<>(0.005)), world.add_shape(Disk<>(0.045))};
+  options.density = 2700;
+  options.grain_limit = 1000;
+  Source<Space<2>> source(options), copy(options);
+  std::size_t large = 0, all = 0;
+  for (int k = 0; k < 2000; ++k) {
+    source.apply(world, h);
+    for (const BodyId grain : source.added())
+      large += circumradius(world.shape(grain)) > 0.02 ? 1u : 0u, ++all;
+    if (world.grain_count() > 0)
+      world.remove_grain(world.grains().front());  // the oldest one leaves
+  }
+  CHECK(all > 200);
+  CHECK(double(large) / double(all) == doctest::Approx(0.5).epsilon(0.15));
+  // A snapshot contains the shape that waits.
+  World<Disk<>> other(0.01, Materials<LawOf<Disk<>>>(1, LawOf<Disk<>>(0.4)));
+  restore_snapshot(snapshot(world, source), other, copy);
+  for (int k = 0; k < 50; ++k) {
+    for (auto* one : {&world, &other})
+      if (one->grain_count() > 0) one->remove_grain(one->grains().front());
+    source.apply(world, h);
+    copy.apply(other, h);
+  }
+  CHECK(snapshot(world, source) == snapshot(other, copy));
+}
+
+TEST_CASE("the limit of a source does not count obstacles") {
+  Shaft<Disk<>> shaft;
+  for (int k = 0; k < 5; ++k)
+    shaft.world.prescribe_motion(
+        shaft.world.add_grain(shaft.small, {{1 + 0.1 * k, 0}, Space<2>::identity()}, 2700));
+  auto options = shaft.options();
+  options.grain_limit = 3;
+  options.trials = 500;
+  Source<Space<2>> source(options);
+  CHECK(source.apply(shaft.world, h).count == 3);
+  CHECK(source.apply(shaft.world, h).count == 0);
+  CHECK(source.waiting() == 1);
+  CHECK(shaft.world.grain_count() == 8);
+}
+
 TEST_CASE("a source counts the grains that it added before it threw") {
   using ShapeT = Disk<>;
   World<ShapeT> world(0.02, Materials<LawOf<ShapeT>>(1, LawOf<ShapeT>(0.4)));

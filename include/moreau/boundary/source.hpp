@@ -42,14 +42,17 @@ struct SourceOptions {
   /// The box that contains the new grains, world axes [m]; along every axis at least as long as the
   /// circumdiameter of each shape.
   Aabb<S> region;
-  std::vector<ShapeId> shapes;          ///< drawn at random, each with the same probability
+  /// Drawn at random, each with the same probability. A shape that finds no room is the next that is added: grains that
+  /// need more room are not left out.
+  std::vector<ShapeId> shapes;
   typename S::Scalar density = 0;       ///< [kg/m^3], in the plane [kg/m^2], > 0
   MaterialId material = MaterialId(0);  ///< of the surface
   typename S::Vector velocity =
       S::Vector::Zero();  ///< of new grains, world axes [m/s]; relative to a cell that deforms
   /// Grains per second [1/s], > 0; infinite: as many as find room.
   double rate = std::numeric_limits<double>::infinity();
-  /// The number of grains in the simulation up to which grains are added.
+  /// The number of grains in the simulation up to which grains are added. Obstacles, grains of prescribed motion, do not
+  /// count.
   std::size_t grain_limit = std::numeric_limits<std::size_t>::max();
   int trials = 20;         ///< random places and rotations that are tried for each grain, >= 1
   std::uint64_t seed = 1;  ///< of the random numbers
@@ -99,10 +102,11 @@ class Source {
     added_.clear();
     require_room(simulation);
     due_ += options_.rate * double(step);
-    if (simulation.grain_count() >= options_.grain_limit) due_ = std::min(due_, 1.0);
-    if (due_ < 1 || simulation.grain_count() >= options_.grain_limit) return now;
+    std::size_t count = free_grains(simulation);
+    if (count >= options_.grain_limit) due_ = std::min(due_, 1.0);
+    if (due_ < 1 || count >= options_.grain_limit) return now;
     find_obstacles(simulation);
-    while (due_ >= 1 && simulation.grain_count() < options_.grain_limit && add(simulation)) {
+    for (; due_ >= 1 && count < options_.grain_limit && add(simulation); ++count) {
       due_ -= 1;
       const auto mass = double(simulation.bodies().grain_mass[added_.back().index()]);
       for (GrainSum* sum : {&now, &total_}) {  // also if the next grain throws
@@ -121,7 +125,7 @@ class Source {
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(random_, due_, total_); }
+  auto serialized_members() { return std::tie(random_, due_, total_, next_); }
 
   /// A grain that may be in the way, bounded by its box and by the ball of its circumradius.
   struct Obstacle {
@@ -135,6 +139,12 @@ class Source {
     for (const ShapeId shape : options_.shapes)
       require(2 * circumradius(simulation.shape(shape)) <= length.minCoeff(), "Source::apply",
               "shape", shape, "must have a circumdiameter of at most the length of the region");
+  }
+  static std::size_t free_grains(const auto& simulation) {
+    const auto grains = simulation.grains();
+    return static_cast<std::size_t>(std::count_if(grains.begin(), grains.end(), [&](BodyId grain) {
+      return !simulation.bodies().is_prescribed(grain.index());
+    }));
   }
   /// Collects the grains that a new grain could overlap: in a periodic cell all grains.
   void find_obstacles(const auto& simulation) {
@@ -163,7 +173,9 @@ class Source {
   bool add(auto& simulation) {
     std::uniform_int_distribution<std::size_t> draw(0, options_.shapes.size() - 1);
     std::uniform_real_distribution<Scalar> unit(0, 1);
-    const ShapeId id = options_.shapes[draw(random_)];
+    // The shape that found no room comes first. If another one were drawn, the source would prefer small grains.
+    if (next_ >= options_.shapes.size()) next_ = draw(random_);
+    const ShapeId id = options_.shapes[next_];
     const auto& shape = simulation.shape(id);
     for (int trial = 0; trial < options_.trials; ++trial) {
       Pose<S> pose(Vector::Zero(), random_rotation<S>(random_));
@@ -178,6 +190,7 @@ class Source {
       added_.push_back(simulation.add_grain(id, pose, options_.density, options_.material));
       simulation.set_velocity(added_.back(), options_.velocity);
       add_obstacle(simulation, grain);
+      next_ = none;
       return true;
     }
     return false;
@@ -232,6 +245,8 @@ class Source {
     return false;
   }
 
+  static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+
   SourceOptions<S> options_;
   std::mt19937_64 random_;
   double due_ = 0;  // grains that are still to be added
@@ -241,6 +256,7 @@ class Source {
   std::vector<std::uint32_t> large_;  // those with a radius above most_
   Scalar most_ = 0;                   // [m]
   GrainSum total_;
+  std::uint64_t next_ = none;  // index in options_.shapes of the shape that waits for room
 };
 
 }  // namespace moreau

@@ -58,7 +58,7 @@ struct Silo {
       ++fixed;
     }
   }
-  /// Disks of three sizes above the silo, up to the number of grains that flow and those of the floor.
+  /// Disks of three sizes above the silo, up to the number of grains that flow: those of the floor are obstacles.
   static SourceOptions<S> options(World& world) {
     SourceOptions<S> options;
     options.region = {{diameter, 0.6}, {width - diameter, 0.8}};
@@ -66,7 +66,7 @@ struct Silo {
       options.shapes.push_back(world.add_shape(Disk<>(size * diameter / 2)));
     options.density = density;
     options.velocity = {0, -1};
-    options.grain_limit = grains + 40;
+    options.grain_limit = grains;
     return options;
   }
   void step() {
