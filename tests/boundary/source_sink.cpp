@@ -59,8 +59,8 @@ struct Shaft {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a grid of points finds all that are near", S, Space<2, double>,
-                   Space<3, float>) {
+TEST_CASE_TEMPLATE("a grid of points finds all that are near", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<3, float>))) {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   std::mt19937 random(5);

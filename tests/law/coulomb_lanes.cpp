@@ -169,7 +169,8 @@ TEST_CASE_TEMPLATE("loads of any size have finite impulses in the cone", S,
       }
 }
 
-TEST_CASE_TEMPLATE("the square root of lanes is that of numbers", T, double, float) {
+TEST_CASE_TEMPLATE("the square root of lanes is that of numbers", T,
+                   MOREAU_TYPES((double), (float))) {
   using Limits = std::numeric_limits<T>;
   std::mt19937_64 random(17);
   const auto check = [&]<class Lanes>(Lanes, T x) {

@@ -24,7 +24,7 @@ static_assert(CoulombLaw<Cohesive<Frictionless<>>, Space<3>>);
 static_assert(LaneLaw<Frictionless<>, Space<3>> && !MapsLanes<Frictionless<>, Space<3>>);
 
 TEST_CASE_TEMPLATE("a stack without friction stands", ShapeT,
-                   MOREAU_TYPES((Polygon<>, Polyhedron<>), (Polygon<float>, Polyhedron<float>))) {
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>, Polygon<float>, Polyhedron<float>))) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Law = Frictionless<T>;

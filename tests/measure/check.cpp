@@ -337,7 +337,7 @@ std::pair<std::vector<std::string>, double> two_balls(const LawT& law, double ap
 }  // namespace
 
 TEST_CASE_TEMPLATE("check: an attraction that the margin cuts off, and its range()", S,
-                   MOREAU_TYPES((Space<3>, Space<2, float>), (Space<2>, Space<3, float>))) {
+                   MOREAU_TYPES((Space<3>), (Space<2>, Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   const auto cut = two_balls<Sticky<T>, S>(Sticky<T>(T(0.1)), 0.001);
   CHECK(one_contains(cut.first, "a law attracts with "));

@@ -93,8 +93,8 @@ TEST_CASE("rattlers are those that passes over all grains find, also of a long c
 }
 
 TEST_CASE_TEMPLATE("a grain on obstacles has the coordination number of one on walls", ShapeT,
-                   MOREAU_TYPES((Disk<>, BallIn<Space<3, float>>),
-                                (Ball<>, BallIn<Space<2, float>>))) {
+                   MOREAU_TYPES((Disk<>, Ball<>),
+                                (BallIn<Space<2, float>>, BallIn<Space<3, float>>))) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;

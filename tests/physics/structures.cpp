@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("structures stand with the default options", ShapeT, Polyhedr
 
 // What is left of their relative velocities is the rounding of their speed.
 TEST_CASE_TEMPLATE("a stack that is thrown flies as one body, and steps are solved", ShapeT,
-                   Polyhedron<>, Polygon<>, Polygon<float>) {
+                   MOREAU_TYPES((Polyhedron<>, Polygon<>), (Polygon<float>))) {
   using Scalar = typename moreau::SpaceOf<ShapeT>::Scalar;
   using Vector = typename moreau::SpaceOf<ShapeT>::Vector;
   constexpr double h = 1e-3;

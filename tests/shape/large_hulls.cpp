@@ -15,6 +15,8 @@
 #include "moreau/shape/compound.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
+#include "types.hpp"
+
 using namespace moreau;
 
 namespace {
@@ -192,8 +194,8 @@ TEST_CASE("a simplified hull in single precision") {
     }
 }
 
-TEST_CASE_TEMPLATE("a simplified hull stays where its points were given", ShapeT, Polygon<>,
-                   Polyhedron<>, Polygon<float>, Polyhedron<float>) {
+TEST_CASE_TEMPLATE("a simplified hull stays where its points were given", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Polyhedron<>), (Polygon<float>, Polyhedron<float>))) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using V = typename S::Vector;

@@ -11,6 +11,7 @@
 #include "moreau/motion/mobility.hpp"
 
 #include "solve/assembly.hpp"
+#include "types.hpp"
 
 using namespace solve_test;
 
@@ -74,8 +75,8 @@ TEST_CASE_TEMPLATE("impulses in the frames of the contacts are rows in the frame
   for (std::size_t c = 0; c < op.size(); ++c) CHECK((back[c] - impulses[c]).norm() < 1e-14);
 }
 
-TEST_CASE_TEMPLATE("relative velocities of bodies are those of the operator", S, Space<2>, Space<3>,
-                   Space<2, float>, Space<3, float>) {
+TEST_CASE_TEMPLATE("relative velocities of bodies are those of the operator", S,
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   const Assembly<S> problem(6);
   const auto& op = problem.op;
@@ -90,7 +91,7 @@ TEST_CASE_TEMPLATE("relative velocities of bodies are those of the operator", S,
 }
 
 TEST_CASE_TEMPLATE("the operator knows the islands of its contacts until it is assembled again", S,
-                   Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   Assembly<S> problem(7);
   auto& op = problem.op;
   const std::size_t floor = op.body_count() - 1;
@@ -148,7 +149,7 @@ TEST_CASE("the inverse mass of a wall that moves along one axis") {
 // A wall that moves along one axis alone and a grain of prescribed motion touch across it: no impulse changes their
 // normal velocity, however the axis lies.
 TEST_CASE_TEMPLATE("a contact at which no impulse changes the normal velocity does not act", S,
-                   Space<2>, Space<3>, Space<2, float>, Space<3, float>) {
+                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
   using Matrix = typename S::Matrix;

@@ -9,6 +9,7 @@
 
 #include "rotation_between.hpp"
 #include "sanitized.hpp"
+#include "types.hpp"
 #include "world/assemblies.hpp"
 
 using namespace moreau;
@@ -359,8 +360,8 @@ TEST_CASE("a ball that rolls round in a tube goes down and up and keeps its ener
   }
 }
 
-TEST_CASE_TEMPLATE("a spin that turns a wall across a periodic axis is refused", ShapeT, Disk<>,
-                   Ball<>, BallIn<Space<3, float>>) {
+TEST_CASE_TEMPLATE("a spin that turns a wall across a periodic axis is refused", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (BallIn<Space<3, float>>))) {
   using S = SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
