@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/io/write_paraview.hpp"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
+#include "moreau/io/snapshot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/mesh/mesh_wall.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "io/temporary_folder.hpp"
+#include "io/vtp.hpp"
+#include "types.hpp"
 
 using namespace moreau;
 
@@ -113,12 +120,50 @@ TEST_CASE("a grain and its contacts are drawn at their place in the periodic cel
   CHECK(box.upper.isApprox(Eigen::Vector2d(0.35, 0.2)));
 }
 
+TEST_CASE_TEMPLATE("forces are those of the last step; a step in ms is refused", ShapeT,
+                   MOREAU_TYPES((Disk<>), (Ball<>))) {
+  const TemporaryFolder folder("paraview");
+  Stack<ShapeT> stack;
+  auto& world = stack.world;
+  write_paraview(folder / "before", world);  // no contacts yet
+  for (int k = 0; k < 20; ++k) world.step(1e-4);
+  write_paraview(folder / "rest", world);
+  const double weight = 9.81 * world.bodies().grain_mass[world.grain(0).index()];
+  auto force = Vtp(folder / "rest_contacts.vtp").array<float>("CellData", "normal_force");
+  std::sort(force.begin(), force.end());
+  REQUIRE(force.size() == 2);
+  CHECK(double(force[0]) == doctest::Approx(weight).epsilon(1e-3));
+  CHECK(double(force[1]) == doctest::Approx(2 * weight).epsilon(1e-3));
+  write_paraview(folder / "given", world, 1e-4);
+  CHECK(read(folder / "given_contacts.vtp") == read(folder / "rest_contacts.vtp"));
+  CHECK_THROWS_WITH_AS(write_paraview(folder / "ms", world, 0.1),
+                       doctest::Contains("write_paraview: step / last step"),
+                       std::invalid_argument);
+  CHECK_FALSE(std::filesystem::exists(folder / "ms.vtm"));
+  // A snapshot does not contain the length of the step.
+  restore_snapshot(snapshot(world), world);
+  CHECK(world.last_step() == 0);
+  CHECK_THROWS_WITH_AS(
+      write_paraview(folder / "read", world),
+      doctest::Contains("write_paraview: contacts = 2 need the length of the step"),
+      std::invalid_argument);
+  write_paraview(folder / "read", world, 1e-4);
+  CHECK(read(folder / "read_contacts.vtp") == read(folder / "rest_contacts.vtp"));
+}
+
 TEST_CASE("a simulation without grains is written; bad arguments are errors") {
   const TemporaryFolder folder("paraview");
   Simulation<Disk<>, Law> world(0.2, Materials<Law>(1, Law(0.3)));
   world.add_wall({0, 1}, {0, 0});
   write_paraview(folder / "empty", world);
   CHECK(count(folder / "empty_walls.vtp", "Lines") == "0");
+  // Mesh walls have bounds of their own: the first file of a run that a source fills shows them.
+  FacetMesh<Space<2>> mesh;
+  mesh.vertices = {{0, 0}, {1, 0}, {1, 1}};
+  mesh.facets = {{0, 1}, {1, 2}};
+  world.add_mesh_wall(mesh, {}, WallSides::both);
+  write_paraview(folder / "empty", world);
+  CHECK(count(folder / "empty_walls.vtp", "Lines") == "2");
   CHECK_THROWS_WITH_AS(write_paraview(folder / "a<b", world), doctest::Contains("write_paraview"),
                        std::invalid_argument);
   CHECK_THROWS_AS(write_paraview(folder / "", world), std::invalid_argument);

@@ -79,11 +79,12 @@ inline std::string piece_index(const std::string& on, std::span<const PieceArray
 /// place in a periodic cell. If a process cannot write, the function throws in all processes, so that
 /// none waits for another.
 /// @param step length of the last step [s], by which impulses are divided
-/// @throws std::invalid_argument for a name that XML cannot hold, a step that is not positive
+/// @throws std::invalid_argument for a name that XML cannot hold, a step that is not positive, or a hundred times longer or
+///         shorter than the last one
 /// @throws std::runtime_error if a file of this process or of another one cannot be written
 template <class World>
 void write_pieces(const std::filesystem::path& path, DistributedSimulation<World>& simulation,
-                  double step = 1, const VtkOptions& options = {}) {
+                  double step, const VtkOptions& options = {}) {
   using S = typename World::S;
   const World& local = simulation.local();
   const int rank = simulation.processes().rank(), size = simulation.processes().size();
@@ -99,6 +100,7 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
   const auto body = [&](std::size_t k) { return local.grain(own[k]).index(); };
 
   require_positive(step, "write_pieces", "step");
+  local.require_unit_of_step(static_cast<typename S::Scalar>(step), "write_pieces");
   Communicator& processes = simulation.processes();
   detail::together(processes, [&] {
     VtkWriter<S> writer(options);
@@ -140,6 +142,15 @@ void write_pieces(const std::filesystem::path& path, DistributedSimulation<World
     write_atomically(path.string() + "_contacts.pvtp",
                      detail::piece_index("CellData", of_contacts, contacts));
   });
+}
+/// The same with the length of the last step of the simulation.
+/// @throws std::invalid_argument, std::runtime_error in the same way, and if there are contacts but no step since the
+///         simulation was read from a snapshot or distributed
+template <class World>
+void write_pieces(const std::filesystem::path& path, DistributedSimulation<World>& simulation) {
+  const World& local = simulation.local();
+  const double contacts = simulation.processes().sum(double(local.contacts().size()));
+  write_pieces(path, simulation, detail::known_step(local, contacts, "write_pieces"));
 }
 
 }  // namespace moreau

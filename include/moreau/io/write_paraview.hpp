@@ -139,21 +139,23 @@ void write_cell(const std::filesystem::path& path, const Simulation& simulation)
 ///                   exist
 /// @param simulation a Simulation
 /// @param step       length of the last step [s], by which impulses are divided to obtain
-///                   `normal_force` and `friction_force` [N]. With the default 1 these arrays are
-///                   the impulses [N s]
+///                   `normal_force` and `friction_force` [N]
 /// @param options    how grains are drawn
 /// @throws std::invalid_argument for a path whose last part is empty or contains one of " < & or a
-///         control character, a step that is not finite or not positive, options out of range
+///         control character, a step that is not finite, not positive, or a hundred times longer or shorter than the
+///         last one, options out of range
 /// @throws std::system_error naming the path of a file that cannot be written
 template <class Simulation>
-void write_paraview(const std::filesystem::path& path, const Simulation& simulation,
-                    double step = 1, const VtkOptions& options = {}) {
+void write_paraview(const std::filesystem::path& path, const Simulation& simulation, double step,
+                    const VtkOptions& options = {}) {
   using S = typename Simulation::S;
   const std::filesystem::path stem =
       path.extension() == ".vtm" ? std::filesystem::path(path).replace_extension() : path;
   const std::string name = stem.filename().string();
   require(!name.empty() && detail::is_plain_xml(name), "write_paraview", "path", path.string(),
           "must end in a name without control characters and without \" < &");
+  require_positive(step, "write_paraview", "step");
+  simulation.require_unit_of_step(static_cast<typename S::Scalar>(step), "write_paraview");
   const auto& cell = simulation.cell();
   std::vector<Pose<S>> poses;
   for (const BodyId grain : simulation.grains())
@@ -190,6 +192,15 @@ void write_paraview(const std::filesystem::path& path, const Simulation& simulat
     list += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + part + "\" file=\"" +
             name + "_" + part + ".vtp\"/>\n";
   write_atomically(stem.string() + ".vtm", list + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
+}
+/// The same with the length of the last step of the simulation.
+/// @throws std::invalid_argument, std::system_error in the same way, and if there are contacts but no step since the
+///         simulation was read from a snapshot
+template <class Simulation>
+void write_paraview(const std::filesystem::path& path, const Simulation& simulation) {
+  write_paraview(
+      path, simulation,
+      detail::known_step(simulation, double(simulation.contacts().size()), "write_paraview"));
 }
 
 }  // namespace moreau

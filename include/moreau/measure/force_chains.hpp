@@ -136,4 +136,20 @@ std::vector<ContactSegment<typename Simulation::S>> contact_segments(
   return segments;
 }
 
+namespace detail {
+
+/// The length of the last step of a simulation [s], for a file with forces; 1 if there are no contacts.
+/// @param contacts their number, in all processes
+/// @throws std::invalid_argument if it is not known: the simulation was read from a snapshot or gathered
+template <class Simulation>
+double known_step(const Simulation& simulation, double contacts, const char* function) {
+  const auto step = double(simulation.last_step());
+  require(step > 0 || contacts == 0, function, "contacts", contacts,
+          "need the length of the step as an argument: the simulation was read or gathered, and "
+          "has made none since");
+  return step > 0 ? step : 1;
+}
+
+}  // namespace detail
+
 }  // namespace moreau

@@ -161,12 +161,19 @@ WallSurface<S> mesh_surface(const MeshBody<S>& mesh, const Pose<S>& pose) {
 /// The walls of a simulation near its grains. Mesh walls are drawn as they are. A half-space is drawn as far as the bounding box of
 /// the grains, extended by a grain size, reaches along it, and ends at the other half-spaces. A
 /// half-space farther from the grains than the diagonal of this box is left out. Without grains
-/// there are no walls.
+/// there are mesh walls only.
 template <class Simulation>
 std::vector<WallSurface<typename Simulation::S>> wall_surfaces(const Simulation& simulation) {
   using S = typename Simulation::S;
   std::vector<WallSurface<S>> surfaces;
-  if (simulation.grain_count() == 0) return surfaces;
+  const auto add_meshes = [&] {
+    for (const MeshBody<S>& mesh : simulation.mesh_walls())
+      surfaces.push_back(mesh_surface<S>(mesh, simulation.pose(mesh.body)));
+  };
+  if (simulation.grain_count() == 0) {
+    add_meshes();
+    return surfaces;
+  }
   const Aabb<S> box = box_of_grains(simulation).inflated(simulation.grain_size());
   const auto corners = corners_of(box);
   const auto diagonal = (box.upper - box.lower).norm();
@@ -185,8 +192,7 @@ std::vector<WallSurface<typename Simulation::S>> wall_surfaces(const Simulation&
   for (const CylinderBody<S>& cylinder : simulation.cylinders())
     surfaces.push_back({cylinder.body, cylinder_faces<S>(corners, simulation.pose(cylinder.body),
                                                          cylinder.shape)});
-  for (const MeshBody<S>& mesh : simulation.mesh_walls())
-    surfaces.push_back(mesh_surface<S>(mesh, simulation.pose(mesh.body)));
+  add_meshes();
   return surfaces;
 }
 

@@ -324,6 +324,9 @@ class Simulation : public BodyControl<ShapeT> {
             "step / last step", step / last_step_,
             "must be near 1: a step in seconds, as that of Simulation::step()");
   }
+  /// Length of the last step [s], by which impulses are divided to obtain forces; 0 before the first step and after the
+  /// simulation was read from a snapshot.
+  Scalar last_step() const { return last_step_; }
   Scalar grain_size() const { return grain_size_; }  ///< length that tolerances are relative to [m]
   const Tolerances& tolerances() const { return tolerances_; }  ///< of detection
   /// Contacts of the last step with their impulses [N s]; for a regularized law, force x step.
@@ -375,6 +378,7 @@ class Simulation : public BodyControl<ShapeT> {
   }
   void deserialized() {
     reach_ = detail::reach_of<S>(materials_);
+    last_step_ = 0;
     const std::size_t laws = materials_.laws().size(), variants = variants_of<Law, S>();
     require(assembly_.is_valid(materials_.count()) &&
                 contacts_.are_valid(bodies().size(), laws, variants),
