@@ -149,7 +149,7 @@ class ProximalStep {
     constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
-    double norm = respond(epsilon, next_);
+    double norm = respond(epsilon, next_), least = norm;
     double before = std::numeric_limits<double>::infinity();
     for (;;) {
       if (!std::isfinite(norm)) return false;
@@ -164,7 +164,7 @@ class ProximalStep {
       if (steps_ == most_steps) return false;
       ++steps_;
       before = left;
-      if (!newton_direction() || !shorten(epsilon, norm)) {
+      if (!newton_direction() || !shorten(epsilon, norm, least)) {
         if (!solved) return false;
         respond(epsilon, next_);
         break;
@@ -358,10 +358,12 @@ class ProximalStep {
     for (std::size_t i = 0; i < f_.size(); ++i) next_[i] -= f_[i];
   }
   /// Minimizes phi along direction_, roughly: phi is convex, and its slope is about linear in pieces. trial_ is the
-  /// point that the step leads to.
+  /// point that the step leads to. Far from the minimum |F| may grow in a step that reduces phi. A step that halves |F| is taken
+  /// even if phi grows, but only if it halves the smallest |F| so far: otherwise the steps can repeat in a cycle.
   /// @param norm  |F|, in: at next_, out: at trial_
+  /// @param least the smallest |F| of the steps so far, in and out
   /// @returns whether there is such a step
-  MOREAU_INLINED bool shorten(double epsilon, double& norm) {
+  MOREAU_INLINED bool shorten(double epsilon, double& norm, double& least) {
     constexpr int most = 30;
     constexpr double enough = 0.3;
     const double first = slope();
@@ -372,15 +374,12 @@ class ProximalStep {
         trial_[i] = along(next_[i], length, direction_[i]);
       const double reached = respond(epsilon, trial_);
       const double here = slope();
-      if (std::abs(here) <= -enough * first || reached < norm / 2) {
+      if (std::abs(here) <= -enough * first || reached < least / 2 || (here < 0 && high == 0)) {
         norm = reached;
+        least = std::min(least, norm);
         return true;
       }
       if (here < 0) {
-        if (high == 0) {
-          norm = reached;
-          return true;
-        }
         if (low > 0) high_slope /= 2;
         low = length, low_slope = here;
       } else {
