@@ -105,6 +105,7 @@ class IslandPoints {
   struct Point {
     Rows a, b;          ///< J of its bodies
     Vector free;        ///< b [m/s]
+    double opening;     ///< part of b_n by which an open gap may close, >= 0 [m/s]
     Vector compliance;  ///< C [1/kg]
     double diagonal;    ///< mean of the diagonal of W_cc [1/kg]
     /// Root mean square over the axes of |J^T| of its bodies [kg^-1/2]
@@ -121,6 +122,7 @@ class IslandPoints {
     const typename S::Matrix& frame;              ///< columns n, t[, s], world axes
     const typename S::Vector &lever_a, &lever_b;  ///< from the centres to the point, world axes [m]
     Vector free;                                  ///< b [m/s]; not finite if the contact cannot act
+    double opening;                               ///< part of b_n that an open gap adds [m/s]
     Vector compliance;                            ///< C [1/kg]
     double friction;                              ///< mu [-]
   };
@@ -144,6 +146,7 @@ class IslandPoints {
     if (!source.free.allFinite()) return;
     Point point;
     point.free = source.free;
+    point.opening = source.opening;
     point.compliance = source.compliance;
     point.contact = source.contact;
     point.friction = source.friction;

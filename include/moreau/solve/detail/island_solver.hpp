@@ -336,6 +336,7 @@ class IslandSolver {
     newton_.assign(
         problem.delassus, islands_->contacts(island),
         [&](std::size_t c) { return free_velocity(problem, c); },
+        [&](std::size_t c) { return opening(problem, c); },
         [&](std::size_t c) { return double(problem.law(c).friction()); });
   }
   /// b of a contact [m/s]. In single precision b has the rounding of the velocities of the bodies. Two points of a face
@@ -366,6 +367,15 @@ class IslandSolver {
     } else {
       return rounded;
     }
+  }
+  /// Part of free_velocity() that an open gap adds [m/s].
+  static double opening(const Problem& problem, std::size_t c) {
+    if (problem.gap_velocity.empty() || !(problem.gap_velocity[c] > 0)) return 0;
+    if constexpr (std::is_same_v<typename Operator::Scalar, float>) {
+      // Without the gap.
+      if (free_velocity(problem, c)[0] != double(problem.delassus.free_velocity(c)[0])) return 0;
+    }
+    return double(problem.gap_velocity[c]);
   }
   /// @returns whether it has succeeded
   MOREAU_INLINED bool solve_directly(Small& one, Impulses impulses, double epsilon, int steps,

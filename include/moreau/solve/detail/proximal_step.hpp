@@ -40,6 +40,7 @@ class ProximalStep {
     const std::size_t count = points_.points().size();
     lift_.resize(count);
     limit_.resize(count);
+    closed_.resize(count);
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
@@ -61,6 +62,7 @@ class ProximalStep {
     for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = least_of(points_.body(i));
     common_ = 0;
     has_limits_ = false;
+    std::fill(closed_.begin(), closed_.end(), 0);
     if (impulses.empty())
       std::fill(centre_.begin(), centre_.end(), Vector::Zero());
     else
@@ -75,6 +77,7 @@ class ProximalStep {
       const auto& point = points_.points()[k];
       Vector& u = slip_[k];
       u = point.free + points_.velocity(point, y_);
+      u[0] -= closed_[k];
       for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
       lift_[k] = point.friction * slip_of(u);
     }
@@ -126,13 +129,27 @@ class ProximalStep {
                             std::span<const Vector>(slip_), sliding_scales());
   }
   /// Makes the pressure of each face uniform in the centre. Its sum remains. From now on the friction of each contact
-  /// has a limit, which take_lifts() sets. After sliding_points().
-  MOREAU_INLINED void even_faces() {
+  /// has a limit, which take_lifts() sets. Of the velocity by which an open gap may
+  /// close, the part up to the tolerance is left out. After sliding_points().
+  /// @param tolerance on the error of velocities, relative to find_scales() [-]
+  /// @returns the largest velocity that is left out, relative to find_scales(), at most the tolerance [-]
+  MOREAU_INLINED double even_faces(double tolerance) {
+    double largest = 0;
+    for (std::size_t k = 0; k < closed_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t body : {point.body_a, point.body_b})
+        if (body != Points::none) least = std::min(least, scale_[body]);
+      const double share = least > 0 ? std::min(tolerance, point.opening / least) : 0;
+      closed_[k] = share * least;
+      largest = std::max(largest, share);
+    }
     first_lifts();
     make_common();
     has_limits_ = true;
     detail::make_even<S>(points_.points(), std::span<const Vector>(slip_), sliding_scales(),
                          std::span<Vector>(centre_), std::span<double>(limit_));
+    return largest;
   }
 
   /// Calls take(body of the problem, velocity that its errors are relative to [m/s]).
@@ -324,6 +341,7 @@ class ProximalStep {
         s[i] = point.compliance[i] + soft;
         b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
       }
+      b[0] -= closed_[k];
       slip_[k] = b;
       if (has_limits_) {
         take(k, s, response_within<S>(limit_[k], s, b));
@@ -441,6 +459,7 @@ class ProximalStep {
   bool has_limits_ = false;             // of friction, in place of lifts
   List<double> least_, scale_;          // see start() and find_scales(); one per body [m/s]
   List<double> limit_;                  // mu r_n [N s]
+  List<double> closed_;  // part of the opening that is left out, see even_faces() [m/s]
   List<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
   List<Coordinates> y_;                                    // of the centre
   List<Coordinates> next_, trial_, f_, direction_;

@@ -69,6 +69,11 @@ class ContactLaws {
                            const CellJumps<S>& jumps, const Team& team) {
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
+    [[maybe_unused]] Scalar* gap_velocity = nullptr;
+    if constexpr (CoulombLaw<Law, S>) {
+      problem.gap_velocity.resize(context.contacts.size());
+      gap_velocity = problem.gap_velocity.data();
+    }
     // By value: a reference would be read again for every contact.
     const Contact<S>* const points = context.contacts.points.data();
     const Law* const laws = context.materials.laws().data();
@@ -96,6 +101,7 @@ class ContactLaws {
                  if constexpr (TangentialRestitutionLaw<Law, S>)
                    bounce_aside(problem, c, law, closing.gap, approach);
                  if (!std::isfinite(offset)) pushes[c].setZero();
+                 if constexpr (CoulombLaw<Law, S>) gap_velocity[c] = std::max(Scalar(0), offset);
                  problem.delassus.offset_normal(c, offset);
                })
         .value;
