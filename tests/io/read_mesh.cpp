@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iomanip>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -24,6 +25,7 @@
 #include "moreau/mesh/convex_of_mesh.hpp"
 #include "moreau/mesh/repair_mesh.hpp"
 #include "moreau/sample/concave_mesh.hpp"
+#include "moreau/sample/random_rotation.hpp"
 #include "moreau/shape/compound.hpp"
 #include "moreau/shape/simplify_hull.hpp"
 
@@ -871,6 +873,109 @@ TEST_CASE("a grain of the groups of a file, with the mass properties of a mesh")
   CHECK(stone.volume() == doctest::Approx(6e-2 * 2e-2 * 2e-2));
   CHECK_THROWS_WITH_AS(Compound<Polyhedron<>>(parts, mass_properties(mesh, 2700.0)),
                        doctest::Contains("at density 1"), std::invalid_argument);
+}
+
+namespace {
+
+/// A turned box in the files that programs write.
+/// @param write_number function: stream, coordinate -> its text
+template <class Write>
+std::string box_file(const Parts& box, const std::string& kind, const Write& write_number) {
+  std::ostringstream out;
+  const auto corner = [&](const char* word, const Vector& x) {
+    out << word;
+    for (int k = 0; k < 3; ++k) write_number(out << ' ', x[k]);
+    out << '\n';
+  };
+  if (kind == "stl") {
+    out << "solid box\n";
+    for (const auto& t : box.triangles) {
+      out << "facet normal 0.577350269 0.577350269 0.577350269\nouter loop\n";
+      for (const int v : t) corner("vertex", box.vertices[std::size_t(v)]);
+      out << "endloop\nendfacet\n";
+    }
+    out << "endsolid box\n";
+    return out.str();
+  }
+  if (kind == "ply")
+    out << "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty "
+           "float z\n"
+           "element face 12\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& x : box.vertices) corner(kind == "ply" ? "" : "v", x);
+  for (const auto& t : box.triangles)
+    if (kind == "ply")
+      out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    else
+      out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("the hull of a turned box has six faces, whatever digits its file has") {
+  const TemporaryFolder folder("mesh");
+  std::mt19937_64 random(4);
+  const auto decimals = [](auto& out, double x) { out << std::fixed << std::setprecision(6) << x; };
+  const auto digits = [](auto& out, double x) {
+    out << std::defaultfloat << std::setprecision(6) << x;
+  };
+  const auto exponents = [](auto& out, double x) {
+    out << std::scientific << std::setprecision(6) << x;
+  };
+  const auto floats = [](auto& out, double x) {
+    out << std::defaultfloat << std::setprecision(9) << float(x);
+  };
+  const auto doubles = [](auto& out, double x) {
+    out << std::defaultfloat << std::setprecision(17) << x;
+  };
+  for (int k = 0; k < 10; ++k) {
+    for (const double size : {0.01, 1.0, 20.0}) {
+      Parts box = Parts::cube(Vector(-0.5, -0.5, -0.5));
+      const auto rotation = random_rotation<Space<3>>(random);
+      for (Vector& x : box.vertices) x = size * (rotation * Vector(1.5 * x[0], x[1], 0.7 * x[2]));
+      CAPTURE(size);
+      std::vector<std::pair<std::string, std::string>> files{{"binary.stl", box.binary_stl()}};
+      for (const std::string kind : {"obj", "stl", "ply"}) {
+        files.emplace_back("decimals." + kind, box_file(box, kind, decimals));
+        files.emplace_back("digits." + kind, box_file(box, kind, digits));
+        files.emplace_back("exponents." + kind, box_file(box, kind, exponents));
+        files.emplace_back("floats." + kind, box_file(box, kind, floats));
+        files.emplace_back("doubles." + kind, box_file(box, kind, doubles));
+      }
+      for (const auto& [name, text] : files) {
+        CAPTURE(name);
+        const auto path = write(folder, name, text);
+        const Mesh mesh = read_mesh(path, 1e-2);
+        // Half a unit of the last digit, or of the last bit of a float.
+        const double error = name.starts_with("doubles")    ? 1e-15
+                             : name.starts_with("decimals") ? std::max(5.1e-7 / size, 6e-8)
+                                                            : 5e-6;
+        CHECK(mesh.rounding <= 1e-2 * size * error);
+        if (!name.starts_with("doubles")) CHECK(mesh.rounding >= 1e-2 * size * 2e-8);
+        const Polyhedron<> hull = hull_of_mesh(mesh);
+        CHECK(hull.face_count() == 6);
+        CHECK(hull.vertex_count() == 8);
+        CHECK(convex_of_mesh(mesh).face_count() == 6);
+        CHECK(hull_of_mesh(scaled(mesh, 3.0)).face_count() == 6);
+        CHECK(hull_of_mesh(pieces_of(mesh)[0]).face_count() == 6);
+        CHECK(hull_of_mesh(read_mesh_groups(path, 1e-2)[0].mesh).face_count() == 6);
+        CHECK(hull.volume() == doctest::Approx(1.05e-6 * size * size * size).epsilon(1e-3));
+        const TriangleMesh<float> in_float = read_mesh(path, 1e-2f);
+        CHECK(hull_of_mesh(in_float).face_count() == 6);
+      }
+    }
+  }
+}
+
+// A corner at 0.5 is meant to be there: 2 faces of this solid differ by 0.01 of its size.
+TEST_CASE("a file with few digits is taken at its word") {
+  const TemporaryFolder folder("mesh");
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1.01\nv 0 1 1\n"
+      "f 1 4 3 2\nf 5 6 7\nf 5 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const Mesh mesh = read_mesh(write(folder, "wedge.obj", text), 1.0);
+  CHECK(hull_of_mesh(mesh).face_count() == 7);
+  CHECK(mesh.rounding < 1e-7);
 }
 
 TEST_CASE("a mesh far from the origin is refused, its digits are lost") {

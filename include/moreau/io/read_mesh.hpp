@@ -7,12 +7,12 @@
 // the first. The vertices of an STL file are numbered as they come.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -63,16 +63,30 @@ inline MeshFile read_mesh_file(const std::filesystem::path& path, const char* fu
 /// Lets corners at the same position have the same number: the first. The vertices of a file that
 /// does not number them are renumbered without gaps.
 inline void merge_corners(MeshFile& file) {
-  std::map<std::array<double, 3>, std::uint32_t> numbers;
-  std::vector<std::uint32_t> number(file.vertices.size());
+  struct Corner {
+    std::array<double, 3> x;
+    std::uint32_t number;
+  };
+  std::vector<Corner> corners;
+  corners.reserve(file.vertices.size());
+  // The sum turns -0 into 0.
+  for (const Eigen::Vector3d& x : file.vertices)
+    corners.push_back({{x[0] + 0.0, x[1] + 0.0, x[2] + 0.0}, std::uint32_t(corners.size())});
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.x != b.x ? a.x < b.x : a.number < b.number;
+  });
+  std::vector<std::uint32_t> number(corners.size());  // at first the first corner at the position
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    number[corners[k].number] = k > 0 && corners[k].x == corners[k - 1].x
+                                    ? number[corners[k - 1].number]
+                                    : corners[k].number;
   std::vector<Eigen::Vector3d> kept;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    const Eigen::Vector3d& x = file.vertices[v];
-    const auto next = std::uint32_t(file.has_numbered_vertices ? v : kept.size());
-    // The sum turns -0 into 0.
-    const auto [at, is_new] = numbers.try_emplace({x[0] + 0.0, x[1] + 0.0, x[2] + 0.0}, next);
-    number[v] = at->second;
-    if (is_new || file.has_numbered_vertices) kept.push_back(x);
+    const bool is_new = number[v] == v;
+    number[v] = !is_new                      ? number[number[v]]
+                : file.has_numbered_vertices ? std::uint32_t(v)
+                                             : std::uint32_t(kept.size());
+    if (is_new || file.has_numbered_vertices) kept.push_back(file.vertices[v]);
   }
   file.vertices = std::move(kept);
   for (auto& triangle : file.triangles)
@@ -102,6 +116,7 @@ TriangleMesh<T> mesh_of_file(const MeshFile& file, T unit, const std::string& pa
                                " is too large for the scalar type");
   }
   mesh.facets.assign(file.triangles.begin(), file.triangles.end());
+  mesh.rounding = static_cast<T>(double(unit) * file.rounding());
   return mesh;
 }
 
@@ -114,7 +129,8 @@ void require_unit(T unit, const char* function) {
 
 /// Reads all groups of a file into one mesh. The mesh is not checked: call require_solid() or
 /// require_surface() (mesh/check_mesh.hpp), and the repairs of mesh/repair_mesh.hpp before, if
-/// they are wanted. Given the path as the name of the function, their messages name the file.
+/// they are wanted. FacetMesh::rounding says how far coordinates are known: of a binary file of floats half a unit of the last
+/// bit of the largest coordinate, of a text half a unit of its last digit. Given the path as the name of the function, their messages name the file.
 /// @param path of an .obj, .stl or .ply file
 /// @param unit length of one unit of the file [m]: 1e-3 for a file in millimetres
 /// @returns the mesh in the frame of the file [m], vertices and triangles in the order of the file

@@ -108,7 +108,8 @@ class DepthBelowFaces {
 }  // namespace detail
 
 /// The convex hull of the corners of a mesh's facets. The mesh may have any other fault: it may be open,
-/// not a manifold, turned inside out, in several pieces, or have facets without an area.
+/// not a manifold, turned inside out, in several pieces, or have facets without an area. Corners that lie in one plane
+/// within the digits of the file (FacetMesh::rounding) form one face: Polyhedron(points, rounding).
 /// @throws std::invalid_argument if the mesh has no facet, if a facet has a corner that is not in the
 ///         list of vertices or is not finite, or if the corners lie in one plane (in the plane: on
 ///         one line)
@@ -126,7 +127,7 @@ PolytopeOf<S> hull_of_mesh(const FacetMesh<S>& mesh) {
     }
   for (std::size_t v = 0; v < is_used.size(); ++v)
     if (is_used[v] != 0) points.push_back(mesh.vertices[v]);
-  return PolytopeOf<S>(std::span<const typename S::Vector>(points));
+  return PolytopeOf<S>(std::span<const typename S::Vector>(points), mesh.rounding);
 }
 
 /// The worst concavity of a mesh, measured at its vertices and at the centres of its facets: the
@@ -154,7 +155,8 @@ Concavity<S> worst_concavity(const FacetMesh<S>& mesh, const PolytopeOf<S>& hull
 
 /// A grain from a closed convex mesh. Coplanar triangles form one face.
 /// @param tolerance a concavity up to this fraction of size_of(mesh) counts as flat [-]. The default
-///                  allows for files that hold coordinates in single precision
+///                  allows for files that hold coordinates in single precision. Beside it, the digits of the file
+///                  (FacetMesh::rounding) are allowed for
 /// @throws std::invalid_argument if the mesh does not bound a solid (require_solid()), or if it is
 ///         concave: with the depth of its worst concavity and the facet that has it
 template <class S>
@@ -162,7 +164,8 @@ PolytopeOf<S> convex_of_mesh(const FacetMesh<S>& mesh, typename S::Scalar tolera
   require_solid(mesh, "convex_of_mesh");
   PolytopeOf<S> hull = hull_of_mesh(mesh);
   const Concavity<S> worst = worst_concavity(mesh, hull);
-  if (worst.depth <= tolerance * size_of(mesh) + detail::rounding_of(mesh)) return hull;
+  const auto by_digits = typename S::Scalar(4 * HullTolerance{}.rounded) * mesh.rounding;
+  if (worst.depth <= tolerance * size_of(mesh) + detail::rounding_of(mesh) + by_digits) return hull;
   std::ostringstream message;
   message.precision(4);
   message << "convex_of_mesh: concavity = " << worst.depth << " m at ";

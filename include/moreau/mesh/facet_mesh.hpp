@@ -33,6 +33,8 @@ struct FacetMesh {
 
   std::vector<Vector> vertices;  ///< in any frame [m]
   std::vector<Facet> facets;     ///< triangles; in the plane segments
+  /// Largest error of a coordinate by the digits of the file that has the mesh [m]; 0: that of the scalar.
+  typename S::Scalar rounding = 0;
 };
 
 /// A surface of triangles in space.
@@ -119,6 +121,7 @@ template <class S>
 [[nodiscard]] FacetMesh<S> scaled(FacetMesh<S> mesh, typename S::Scalar factor) {
   require_positive(factor, "scaled", "factor");
   for (auto& x : mesh.vertices) x *= factor;
+  mesh.rounding *= factor;
   return mesh;
 }
 

@@ -144,7 +144,9 @@ namespace detail {
 template <class S>
 std::vector<FacetMesh<S>> divided(const FacetMesh<S>& mesh, std::span<const std::uint32_t> number,
                                   std::size_t count) {
-  std::vector<FacetMesh<S>> meshes(count);
+  FacetMesh<S> empty;
+  empty.rounding = mesh.rounding;
+  std::vector<FacetMesh<S>> meshes(count, empty);
   std::vector<std::size_t> facets(count + 1, 0);  // facets of the meshes before each
   for (const std::uint32_t n : number) ++facets[n + 1];
   for (std::size_t n = 0; n < count; ++n) facets[n + 1] += facets[n];

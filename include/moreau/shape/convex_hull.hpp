@@ -99,11 +99,13 @@ inline void begin_with_smallest(std::vector<std::uint32_t>& cycle) {
 /// @param function name of the calling function, for error messages
 /// @throws std::invalid_argument for fewer than 3 points, a point that is not finite, or points
 ///                               that coincide or are collinear within HullTolerance
+/// @param error    largest error of a coordinate of the points, >= 0 [m]; 0: that of the scalar
 /// Source: A. M. Andrew, Inf. Process. Lett. 9 (1979).
 template <std::floating_point T>
 std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> vertices,
-                                       std::string_view function = "convex_hull") {
-  const detail::HullInput<2> input(vertices, function);
+                                       std::string_view function = "convex_hull",
+                                       double error = 0) {
+  const detail::HullInput<2> input(vertices, function, error);
   detail::require_width(input, function);
   const auto& x = input.points;
   std::vector<std::uint32_t> ring;
@@ -138,12 +140,16 @@ std::vector<std::uint32_t> convex_hull(std::span<const Eigen::Matrix<T, 2, 1>> v
 /// @param function name of the calling function, for error messages
 /// @throws std::invalid_argument for fewer than 4 points, a point that is not finite, or points
 ///                               that coincide or are collinear or coplanar within HullTolerance
+/// @param error    largest error of a coordinate of the points, >= 0 [m]; 0: that of the scalar. The corners of a face
+///                 may then lie that far from its plane
 template <std::floating_point T>
 std::vector<std::vector<std::uint32_t>> convex_hull(
-    std::span<const Eigen::Matrix<T, 3, 1>> vertices, std::string_view function = "convex_hull") {
-  const detail::HullInput<3> input(vertices, function);
+    std::span<const Eigen::Matrix<T, 3, 1>> vertices, std::string_view function = "convex_hull",
+    double error = 0) {
+  const detail::HullInput<3> input(vertices, function, error);
   const detail::TriangleHull hull(input.points, detail::seed_of(input, function));
-  auto faces = detail::merged_faces(hull.triangles(), input.points, input.flat, input.rounding);
+  auto faces = detail::merged_faces(hull.triangles(), input.points, input.flat, input.rounding,
+                                    error > 0 ? 4 : 64);
   for (auto& face : faces) {
     for (std::uint32_t& v : face) v = input.labels[v];
     detail::begin_with_smallest(face);

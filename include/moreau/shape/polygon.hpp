@@ -38,6 +38,12 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
   ///                               coincide or are collinear, or moments that the scalar type
   ///                               cannot represent
   explicit Polygon(std::span<const Vector> vertices);
+  /// The same of points that have the rounding of a file, such as 6 decimals. A vertex that is nearer to the line through its
+  /// neighbours than HullTolerance::rounded times this rounding is removed. If the shape is as thin as this, the result is
+  /// that without rounding.
+  /// @param rounding largest error of a coordinate [m], >= 0: half a unit of the last digit
+  /// @throws std::invalid_argument as above, or if the rounding is not finite or negative
+  Polygon(std::span<const Vector> vertices, T rounding);
   /// The convex hull of a list of points: Polygon<double>({{0, 0}, {1, 0}, ..}).
   explicit Polygon(std::initializer_list<VectorArgument<Space>> vertices)
       : Polygon(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {}
@@ -67,6 +73,8 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
             "vertices", count, "must be at least 3, with one edge for each");
   }
 
+  /// @param ring vertices of the hull, counter-clockwise
+  void build(std::span<const Vector> vertices, std::span<const std::uint32_t> ring);
   Vector vertex(Eigen::Index i) const { return vertices_.row(i % vertices_.rows()).transpose(); }
 
   Moments<Space> sum_moments() const {
@@ -96,7 +104,20 @@ class Polygon : public PolytopeBase<Space<2, T>, detail::PolygonNames> {
 // extern.
 template <std::floating_point T>
 Polygon<T>::Polygon(std::span<const Vector> vertices) {
-  const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon");
+  build(vertices, convex_hull(vertices, "Polygon"));
+}
+
+template <std::floating_point T>
+Polygon<T>::Polygon(std::span<const Vector> vertices, T rounding) : Polygon(vertices) {
+  detail::require_rounding(rounding, "Polygon");
+  const T flat = T(HullTolerance{}.rounded) * rounding;
+  if (!(flat > 0) || !(this->inradius() > 2 * flat)) return;
+  const std::vector<std::uint32_t> ring = convex_hull(vertices, "Polygon", double(rounding));
+  if (ring.size() != this->vertex_count()) build(vertices, ring);
+}
+
+template <std::floating_point T>
+void Polygon<T>::build(std::span<const Vector> vertices, std::span<const std::uint32_t> ring) {
   vertices_.resize(static_cast<Eigen::Index>(ring.size()), 2);
   for (Eigen::Index i = 0; i < vertices_.rows(); ++i) {
     vertices_.row(i) =

@@ -11,11 +11,13 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "moreau/shape/convex_hull.hpp"
 #include "moreau/shape/detail/face_plane.hpp"
 #include "moreau/shape/detail/face_topology.hpp"
+#include "moreau/shape/detail/flatten_faces.hpp"
 #include "moreau/shape/detail/long_vector.hpp"
 #include "moreau/shape/detail/polytope_base.hpp"
 
@@ -48,6 +50,13 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
   ///                               coincide or are collinear or coplanar, or moments that the
   ///                               scalar type cannot represent
   explicit Polyhedron(std::span<const Vector> vertices);
+  /// The same of points that have the rounding of a file, such as 6 decimals. Triangles whose corners lie in one plane within
+  /// HullTolerance::rounded times this rounding form one face, and the vertices are moved by up to that length so that the
+  /// faces are planes. Without this, most faces of a turned cube are two triangles. If there are no such vertices, or if
+  /// the shape is as thin as the tolerance, the result is that without rounding.
+  /// @param rounding largest error of a coordinate [m], >= 0: half a unit of the last digit
+  /// @throws std::invalid_argument as above, or if the rounding is not finite or negative
+  Polyhedron(std::span<const Vector> vertices, T rounding);
   /// The convex hull of a list of points: Polyhedron<double>({{0, 0, 0}, {1, 0, 0}, ..}).
   explicit Polyhedron(std::initializer_list<VectorArgument<Space>> vertices)
       : Polyhedron(std::span<const Vector>(std::vector<Vector>(vertices.begin(), vertices.end()))) {
@@ -178,7 +187,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     T size = 0;
     for (const Vector& x : input) size = std::max(size, x.cwiseAbs().maxCoeff());
     const T flat = static_cast<T>(HullTolerance{}.flat) * std::numeric_limits<T>::epsilon() * size;
-    if (is_locally_convex(flat) && surrounds_origin_once()) return;
+    if (is_convex(flat)) return;
     for (std::size_t f = 0; f < face_count(); ++f) {
       std::size_t bad = vertex_count();
       for (const std::uint32_t v : face(f))
@@ -197,6 +206,7 @@ class Polyhedron : public PolytopeBase<Space<3, T>, detail::PolyhedronNames> {
     return std::binary_search(vertex_faces(v).begin(), vertex_faces(v).end(),
                               static_cast<std::uint32_t>(f));
   }
+  bool is_convex(T flat) const { return is_locally_convex(flat) && surrounds_origin_once(); }
   /// Whether the vertices of each face lie on its plane, and the vertices that edges join to them
   /// strictly below it.
   bool is_locally_convex(T flat) const {
@@ -248,6 +258,30 @@ Polyhedron<T>::Polyhedron(std::span<const Vector> vertices) {
   auto faces = convex_hull(vertices, "Polyhedron");
   const std::vector<Vector> kept = drop_unused(vertices, faces);
   build(kept, faces, "Polyhedron");
+}
+
+template <std::floating_point T>
+Polyhedron<T>::Polyhedron(std::span<const Vector> vertices, T rounding) : Polyhedron(vertices) {
+  detail::require_rounding(rounding, "Polyhedron");
+  const T flat = T(HullTolerance{}.rounded) * rounding;
+  if (!(flat > 0) || !(this->inradius() > 2 * flat)) return;
+  auto faces = convex_hull(vertices, "Polyhedron", double(rounding));
+  if (faces.size() == face_count()) return;
+  const std::vector<Vector> kept = drop_unused(vertices, faces);
+  std::vector<Eigen::Vector3d> points;
+  for (const Vector& x : kept) points.push_back((x - kept[0]).template cast<double>());
+  if (!detail::flatten_faces(faces, points, 2 * double(flat))) return;
+  Polyhedron flattened;
+  std::vector<Vector> moved;
+  T size = 0;
+  for (const Eigen::Vector3d& x : points) {
+    moved.push_back(x.template cast<T>());
+    size = std::max(size, moved.back().cwiseAbs().maxCoeff());
+  }
+  flattened.build(moved, faces, "Polyhedron");
+  detail::InputFrame::move_by(flattened, kept[0]);
+  if (flattened.is_convex(T(HullTolerance{}.flat) * std::numeric_limits<T>::epsilon() * size))
+    *this = std::move(flattened);
 }
 
 template <std::floating_point T>

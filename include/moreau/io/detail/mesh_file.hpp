@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -35,6 +36,21 @@ struct MeshFile {
   /// has written.
   int digits = 0;
   bool has_numbered_vertices = true;  ///< false for STL, which repeats the corners
+  bool is_binary = false;             ///< floats or doubles, not a text
+
+  /// The largest error of a coordinate by the rounding of the file, in its own unit; 0: that of a double. Coordinates with
+  /// up to nine digits were floats, as far as is known, or have fewer digits. Fewer than four digits say nothing: a
+  /// corner at 0.5 is meant to be there.
+  double rounding() const {
+    constexpr int few = 4, of_float = 9;
+    double largest = 0;
+    for (const Eigen::Vector3d& x : vertices) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    if (!(largest > 0) || digits > std::numeric_limits<double>::digits10) return 0;
+    const double by_digits = 0.5 * std::pow(10., std::floor(std::log10(largest)) + 1 - digits);
+    const double by_float = std::ldexp(1., std::ilogb(largest) - 24);
+    if (digits > of_float) return by_digits;
+    return is_binary || digits < few ? by_float : std::max(by_digits, by_float);
+  }
 
   void add_triangle(const Triangle& corners) {
     if (groups.empty()) begin_group({});

@@ -125,16 +125,18 @@ class PlyReader {
   [[noreturn]] void fail(const Element& element, std::size_t i, const std::string& what) const {
     throw std::runtime_error(element.name + " " + std::to_string(i) + ": " + what);
   }
-  double take(Type type, const Element& element, std::size_t i) {
+  /// @param is_coordinate whether its digits count
+  double take(Type type, const Element& element, std::size_t i, bool is_coordinate = false) {
     if (is_text_) {
       const std::string_view word = words_->next();
       if (word.empty()) fail(element, i, "the file ends before it is complete");
       double value = 0;
       if (!parse_number(word, value)) words_->fail("'" + shown(word) + "' must be a number");
-      if (type == Type::f32 || type == Type::f64)
-        if (element.name == "vertex" && std::isfinite(value)) words_->number(word, file_.digits);
+      if ((type == Type::f32 || type == Type::f64) && is_coordinate && std::isfinite(value))
+        words_->number(word, file_.digits);
       return value;
     }
+    file_.is_binary = true;
     constexpr std::size_t sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
     const std::size_t size = sizes[static_cast<int>(type)];
     if (bytes_.size() - at_ < size) fail(element, i, "the file ends before it is complete");
@@ -154,10 +156,10 @@ class PlyReader {
       case Type::u32:
         return unsigned_at<std::uint32_t>(bytes_, begin, is_big_);
       case Type::f32:
-        file_.digits = std::max(file_.digits, 7);
+        if (is_coordinate) file_.digits = std::max(file_.digits, 7);
         return double(std::bit_cast<float>(unsigned_at<std::uint32_t>(bytes_, begin, is_big_)));
       default:
-        file_.digits = 16;
+        if (is_coordinate) file_.digits = 16;
         return std::bit_cast<double>(unsigned_at<std::uint64_t>(bytes_, begin, is_big_));
     }
   }
@@ -183,7 +185,11 @@ class PlyReader {
           if (!(count >= 0 && count <= double(bytes_.size())))
             fail(element, i, "its list has a wrong length");
         }
-        for (double k = 0; k < count; ++k) values.push_back(take(property.type, element, i));
+        const bool is_coordinate =
+            element.name == "vertex" && property.name.size() == 1 &&
+            std::string_view("xyz").find(property.name[0]) != std::string_view::npos;
+        for (double k = 0; k < count; ++k)
+          values.push_back(take(property.type, element, i, is_coordinate));
         if (element.name == "face" && property.count != Type::none &&
             (property.name == "vertex_indices" || property.name == "vertex_index"))
           add_face(element, i, values);

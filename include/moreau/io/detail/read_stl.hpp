@@ -19,6 +19,7 @@ constexpr std::size_t stl_header = 84, stl_triangle = 50;
 inline MeshFile read_binary_stl(std::string_view bytes) {
   MeshFile file;
   file.digits = 7;
+  file.is_binary = true;
   file.has_numbered_vertices = false;
   const std::size_t count = (bytes.size() - stl_header) / stl_triangle;
   file.vertices.reserve(3 * count);

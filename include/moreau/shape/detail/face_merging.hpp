@@ -234,14 +234,15 @@ inline bool has_supporting_planes(const FaceList& faces, std::span<const Eigen::
 /// The faces of a closed convex surface of triangles, with coplanar triangles merged. If some
 /// points have a distance from a plane that is close to the tolerance, some triangles may not be
 /// merged, and slivers with meaningless normals remain. The function then tries larger tolerances,
-/// up to 64 times as large. If none succeeds, the triangles are returned.
+/// up to a given factor. If none succeeds, the triangles are returned.
 /// @param tolerance vertices closer to a plane than this lie on it, in the unit of the points
 /// @param rounding  largest displacement of the points by the rounding of the caller, after this
 ///                  function, in the unit of the points; much smaller than the tolerance
+/// @param most      largest factor, >= 1 [-]
 inline FaceList merged_faces(std::span<const HullTriangle> triangles,
                              std::span<const Eigen::Vector3d> points, double tolerance,
-                             double rounding) {
-  for (double factor = 1; factor <= 64; factor *= 2) {
+                             double rounding, double most) {
+  for (double factor = 1; factor <= most; factor *= 2) {
     const auto faces = FaceMerging(triangles, points, factor * tolerance).faces();
     if (faces && has_supporting_planes(*faces, points, 2 * factor * tolerance, rounding)) {
       return *faces;

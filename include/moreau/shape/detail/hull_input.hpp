@@ -27,6 +27,9 @@ struct HullTolerance {
   double flat = 32;  ///< a vertex closer to the plane of a face (line of an edge) than this lies on
                      ///< it
   double thin = 512;  ///< points thinner than this are coplanar (collinear), which is an error
+  /// The same as `flat` of points whose rounding is given, divided by this rounding. If each coordinate of the corners of a
+  /// square is wrong by at most the rounding, the plane through three of them misses the fourth by at most 4 sqrt(3) = 6.9 of it.
+  double rounded = 8;
 };
 
 namespace detail {
@@ -112,8 +115,9 @@ struct HullInput {
   double rounding = 0;         ///< rounding error of the largest coordinate, in scaled units
   double flat = 0, thin = 0;   ///< HullTolerance, in scaled units
 
+  /// @param error largest error of a coordinate of the points, >= 0 [m]; 0: that of the scalar
   template <class Vector>
-  HullInput(std::span<const Vector> given, std::string_view function) {
+  HullInput(std::span<const Vector> given, std::string_view function, double error = 0) {
     require(given.size() > Dim, function, "vertices.size()", given.size(),
             "must be at least " + std::to_string(Dim + 1));
     require_finite(given, function);
@@ -122,7 +126,7 @@ struct HullInput {
       for (int k = 0; k < Dim; ++k) size = std::max(size, std::abs(double(x[k])));
     unit = size > 0 ? std::ldexp(1.0, std::ilogb(size)) : 1.0;
     rounding = std::numeric_limits<typename Vector::Scalar>::epsilon() * size / unit;
-    flat = HullTolerance{}.flat * rounding;
+    flat = std::max(HullTolerance{}.flat * rounding, HullTolerance{}.rounded * error / unit);
     thin = HullTolerance{}.thin * rounding;
     sort(given);
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <tuple>
 
+#include "moreau/core/error.hpp"
 #include "moreau/core/serialize.hpp"
 #include "moreau/shape/concepts.hpp"
 #include "moreau/shape/detail/vertices.hpp"
@@ -11,6 +13,13 @@
 
 namespace moreau {
 namespace detail {
+
+/// @throws std::invalid_argument unless the rounding of points is finite and >= 0
+template <class T>
+void require_rounding(T rounding, const char* function) {
+  require(std::isfinite(rounding) && rounding >= 0, function, "rounding", rounding,
+          "m must be finite and >= 0");
+}
 
 /// Names the frame in which the points of a polytope were given.
 struct InputFrame {
