@@ -122,7 +122,7 @@ TEST_CASE_TEMPLATE("the energy balance closes while an intruder moves", ShapeT, 
   world.remove_grain(scene.grains[3]);
   const StepReport report = world.step(h);
   CHECK_THROWS_WITH_AS(energy.add(world, report, h),
-                       doctest::Contains("EnergyBalance::add: number of bodies = "),
+                       doctest::Contains("EnergyBalance::add: simulation = "),
                        std::invalid_argument);
   energy.rebase(world);
   const double before = energy.imbalance();

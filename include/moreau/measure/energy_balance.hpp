@@ -55,7 +55,8 @@ struct EnergyTerms {
   double friction = 0;  ///< energy dissipated by tangential impulses, > 0 for a loss [J]
   double rolling = 0;  ///< energy dissipated by rolling and twisting resistance, > 0 for a loss [J]
   double fracture = 0;  ///< energy dissipated by bonds that yield and break, with that which their
-                        ///< springs release, > 0 for a loss [J]
+                        ///< springs release and that which implicit Euler takes from the springs of
+                        ///< bonds that hold, > 0 for a loss [J]
   double elastic = 0;   ///< energy taken by the springs of compliant contacts, < 0 if they gave
                         ///< energy back [J]
   double correction = 0;  ///< work of gravity and forces along the displacements of the overlap
@@ -208,8 +209,9 @@ template <class S>
 void EnergyBalance<S>::add_work_of_forces(const Bodies<S>& bodies, const Vector& gravity,
                                           Scalar step) {
   require_positive(step, "EnergyBalance::add", "step");
-  require(bodies.id == ids_, "EnergyBalance::add", "number of bodies", bodies.size(),
-          "must be the same bodies as at the start of the balance or at the last rebase()");
+  require(
+      bodies.id == ids_, "EnergyBalance::add", "simulation", "(bodies were added or removed)",
+      "must have the bodies of the start of the balance or of the last rebase(): call rebase()");
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Vector way = bodies.pose[i].position - positions_[i];
     const Vector force = linear<S>(bodies.force[i]);

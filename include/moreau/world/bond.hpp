@@ -38,14 +38,17 @@ struct Bond {
   Vector cells = Vector::Zero();   ///< whole numbers of periodic cells from b to its image at a
   Vector slip = Vector::Zero();    ///< opening and slip where it has yielded, in F [m]
   Angular bend = Angular::Zero();  ///< rotation where it has yielded, in F [rad]
-  double dissipated = 0;           ///< energy that it has dissipated [J]
-  double elastic = 0;              ///< energy of its springs; 0 without [J]
-  Scalar strength_left = 1;        ///< s: share of its strength that is left [-]
-  bool is_new = true;              ///< no step has ended since it was made
+  /// Velocity of b against a at the bond in the last step: errors and their correction, in F [m/s].
+  Vector opening = Vector::Zero();
+  Angular turning = Angular::Zero();  ///< the same of the rotation [rad/s]
+  double dissipated = 0;              ///< energy that it has dissipated [J]
+  double elastic = 0;                 ///< energy of its springs; 0 without [J]
+  Scalar strength_left = 1;           ///< s: share of its strength that is left [-]
+  bool is_new = true;                 ///< no step has ended since it was made
 
   auto serialized_members() {  ///< see core/serialize.hpp
-    return std::tie(a, b, anchor_a, anchor_b, frame_a, frame_b, cells, slip, bend, dissipated,
-                    elastic, strength_left, is_new);
+    return std::tie(a, b, anchor_a, anchor_b, frame_a, frame_b, cells, slip, bend, opening, turning,
+                    dissipated, elastic, strength_left, is_new);
   }
 };
 

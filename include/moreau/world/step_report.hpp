@@ -40,16 +40,18 @@ struct StepReport {
   /// value of a single step can be negative by h/2 F . (change of velocity) for each force F; these
   /// terms cancel over a load cycle.
   double dissipation = 0;
-  double friction = 0;    ///< part of it: by tangential impulses [J]
-  double rolling = 0;     ///< part of it: by couples of rolling and twisting [J]
-  double fracture = 0;    ///< part of it: by bonds, with the energy that their springs release [J]
-  std::size_t bonds = 0;  ///< bonds that are left after the step
+  double friction = 0;  ///< part of it: by tangential impulses [J]
+  double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
+  /// Part of it: by bonds that yield and break, with the energy that their springs release, and what implicit Euler takes from the
+  /// springs of bonds that hold [J].
+  double fracture = 0;
+  std::size_t bonds = 0;         ///< bonds that are left after the step
   std::size_t broken_bonds = 0;  ///< bonds that broke in the step
   /// Root mean square of the forces of the bonds, couples included, over that of the pushes against their strength [-]; 0
   /// without bonds.
   double bond_load = 0;
   /// Estimated relative error of the forces of the bonds [-]: solve.residual, or 32 epsilon / bond_load if that
-  /// is larger, because impulses have the rounding of the strength.
+  /// is larger, because impulses have the rounding of the strength; at most 1.
   double bond_error = 0;
   /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
   /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic

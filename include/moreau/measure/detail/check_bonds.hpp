@@ -64,7 +64,7 @@ template <class Simulation>
   if (tension < weight && std::isfinite(weight))
     found.say(
         "a bond of % N (BondStrength::tension) cannot carry the lightest grain that was bonded, "
-        "which weighs % N. If strengths are in kN, type %",
+        "which weighs % N. If it was meant as kN, write tension = %",
         {tension, weight, 1000 * tension});
 }
 

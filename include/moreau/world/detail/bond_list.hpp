@@ -15,8 +15,10 @@
 //     u + (d, R t) / h + c r,
 //
 // whose normal entry is the velocity of the points in the next detection: to u belongs the chord E(w_b) X_b - E(w_a) X_a of
-// the arcs on which the points of the bodies move over the step (chord_velocities.hpp). A rigid bond has rate (d, R t) / h
-// with a rate of a fifth, which corrects what the solver and the overlap correction leave (corrected_bonds.hpp).
+// the arcs on which the points of the bodies move over the step (chord_velocities.hpp).
+//
+// A rigid bond has (1 - h / H) w - (h / H) rate (d, R t) / H with a rate of a fifth in place of what springs add: it corrects what the
+// solver and the overlap correction leave, in the time H (bond_relaxation.hpp, corrected_bonds.hpp).
 //
 // The first detection comes after a part of a step, in which the bodies move along tangents. Bodies that turn together
 // then have a stretch of second order in the step, which is the memory of a new bond: to correct it would add to the
@@ -50,6 +52,7 @@
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/bond.hpp"
 #include "moreau/world/detail/bond_arcs.hpp"
+#include "moreau/world/detail/bond_relaxation.hpp"
 #include "moreau/world/detail/bond_yield.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
 #include "moreau/world/detail/corrected_bonds.hpp"
@@ -125,7 +128,7 @@ class BondList {
           (i > 0 &&
            std::pair(bonds_[i - 1].a, bonds_[i - 1].b) >= std::pair(bonds_[i].a, bonds_[i].b)))
         return false;
-    return true;
+    return relaxation_.is_valid();
   }
 
   /// The cell, a lattice, has other vectors of the same lattice: counts the cells of each bond by these.
@@ -200,17 +203,25 @@ class BondList {
   /// @param shared  bodies that other processes share; null: none
   void offset(const auto& context, Operator& op, std::span<const Scalar> pulls,
               std::span<const typename S::Twist> before, [[maybe_unused]] SharedBodies* shared) {
-    if constexpr (!is_compliant) find_corrected(context.bodies, shared);
+    if constexpr (!is_compliant) {
+      relaxation_.start(context.step, largest_rounding(op, shared));
+      find_corrected(context.bodies, shared);
+    }
     for_each([&](std::size_t i, std::size_t c) {
       const Strain strain = strain_of(i);
       const typename S::Inertia spin_frame = S::angular_frame(op.frame(c));
       Row row;
       linear<S>(row) = op.frame(c).transpose() * strain.stretch;
       angular<S>(row) = op.radius(c) * (spin_frame.transpose() * strain.turn);
-      Scalar share = 1;
-      if constexpr (!is_compliant) share = rate * corrected_.share(context.bodies, bonds_[i]);
-      row *= share / context.step;
-      drifts_[i] = is_compliant ? Row(Row::Zero()) : row;
+      if constexpr (is_compliant) {
+        row /= context.step;
+        drifts_[i].setZero();
+      } else {
+        row *= relaxation_.factor() * corrected_.share(context.bodies, bonds_[i]);
+        if (const Scalar now = relaxation_.share_of_step(); now < 1)
+          row += (now - 1) * left_before(i, c, op);
+        drifts_[i] = row;
+      }
       linear<S>(row) += transposed_product(
           op.frame(c), chord_of_bond<S>(context.contacts.points[c], before, context.step));
       if constexpr (is_compliant) row[0] -= op.compliance(c)[0] * pulls[c];
@@ -220,8 +231,8 @@ class BondList {
   /// Tells the solver from which impulses those of bonds are measured.
   /// @param pulls       impulses of the attraction [N s]
   /// @param velocity_of function: contact -> its velocity if no bond bears anything [m/s]
-  void refer(const Operator& op, std::span<const Scalar> pulls, Scalar step,
-             const auto& velocity_of, ProblemAttraction<Scalar>& attraction) const {
+  void refer(const Operator& op, std::span<const Scalar> pulls, const auto& velocity_of,
+             ProblemAttraction<Scalar>& attraction) const {
     attraction.pulls.clear();
     attraction.velocity2 = attraction.rounding2 = 0;
     if (bonds_.empty()) return;
@@ -229,8 +240,9 @@ class BondList {
     for_each([&](std::size_t i, std::size_t c) {
       attraction.velocity2 += double(Row(velocity_of(c) + drifts_[i]).squaredNorm());
       if constexpr (!is_compliant) {
-        const double stretch = double(rate / step * places_[i].measured),
-                     turn = double(rate / step * rounding_of_turn * op.radius(c));
+        const double factor = double(relaxation_.factor()),
+                     stretch = factor * double(places_[i].measured),
+                     turn = factor * double(rounding_of_turn * op.radius(c));
         attraction.rounding2 += stretch * stretch + turn * turn;
       }
     });
@@ -272,22 +284,32 @@ class BondList {
   /// @param pushes   p of every contact, see pushes.hpp [N s]
   /// @param pulls    impulses of the attraction [N s]
   /// @param shared   bodies that other processes share; null: none
-  double load(std::span<const Row> pushes, std::span<const Scalar> pulls,
-              SharedBodies* shared) const {
-    double sums[] = {0, 0};  // of the squares of what acts on the bodies, and of p
+  double load([[maybe_unused]] const Operator& op, std::span<const Row> pushes,
+              std::span<const Scalar> pulls, [[maybe_unused]] Scalar step, SharedBodies* shared) {
+    // Of the squares of what acts on the bodies, of p, and of the velocities of bond_relaxation.hpp; bonds.
+    double sums[] = {0, 0, 0, 0};
     for_each([&](std::size_t, std::size_t c) {
       Row bears = pushes[c];
       bears[0] -= pulls[c];
       sums[0] += bears.template cast<double>().squaredNorm();
       sums[1] += pushes[c].template cast<double>().squaredNorm();
+      if constexpr (!is_compliant) {
+        const Scalar velocity =
+            std::max(linear<S>(bears).norm(), relaxation_.least_load * pulls[c]) * op.normal(c);
+        sums[2] += double(velocity) * double(velocity);
+        sums[3] += 1;
+      }
     });
     if (shared) shared->sum(sums);
+    if constexpr (!is_compliant)
+      relaxation_.bear(sums[3] > 0 ? Scalar(std::sqrt(sums[2] / sums[3]) / double(step))
+                                   : Scalar(0));
     return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
   }
   /// StepReport::bond_error.
   static double error(double load, double residual) {
     const double rounding = 32 * double(std::numeric_limits<Scalar>::epsilon());
-    return load > 0 ? std::max(residual, rounding / load) : 0;
+    return load > 0 ? std::min(1., std::max(residual, rounding / load)) : 0;
   }
   /// Finds out how the bonds yield, which end_step() lets them do, and which of them break.
   /// @param op       with the velocities of the impulses
@@ -314,6 +336,8 @@ class BondList {
       bond.strength_left = broken_[i] ? Scalar(0) : Scalar(bond.strength_left - yields_[i].loss);
       bond.slip += yields_[i].slip;
       bond.bend += yields_[i].bend;
+      bond.opening = yields_[i].opening;
+      bond.turning = yields_[i].turning;
       const ContactLosses one = losses(c);
       double taken = one.dissipation + bond.elastic;
       if constexpr (CompliantLaw<Law, S>) {
@@ -330,6 +354,7 @@ class BondList {
       breakages_.push_back({0, bond.a, bond.b, bond.dissipated});
       ++new_breakages_;
     });
+    if constexpr (!is_compliant) relaxation_.end_step();
     report.broken_bonds = new_breakages_;
     report.bonds = bonds_.size() - new_breakages_;
     if (new_breakages_ == 0) return;
@@ -343,11 +368,10 @@ class BondList {
 
  private:
   friend struct moreau::SerializationAccess;
-  auto serialized_members() { return std::tie(bonds_, breakages_); }
+  auto serialized_members() { return std::tie(bonds_, breakages_, relaxation_); }
 
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   static constexpr bool is_compliant = CompliantLaw<Law, S>;
-  static constexpr Scalar rate = Scalar(0.2);
   // Of t: the axes of both bodies, and their products with the two frames of the bond [rad].
   static constexpr Scalar rounding_of_turn = 4 * std::numeric_limits<Scalar>::epsilon();
   /// d and t of a bond, world axes.
@@ -365,6 +389,25 @@ class BondList {
     const BondPlace<S>& at = places_[i];
     return {at.stretch - at.frame * bonds_[i].slip,
             at.turn - S::angular_frame(at.frame) * bonds_[i].bend};
+  }
+  /// Of the stretches and rotations of all bonds [m].
+  Scalar largest_rounding(const Operator& op, SharedBodies* shared) const {
+    double rounding = 0;
+    for_each([&](std::size_t i, std::size_t c) {
+      rounding = std::max(
+          {rounding, double(places_[i].rounding), double(rounding_of_turn * op.radius(c))});
+    });
+    if (shared) shared->largest({&rounding, 1});
+    return Scalar(rounding);
+  }
+  /// w of the step before, as a row of the operator [m/s].
+  Row left_before(std::size_t i, std::size_t c, const Operator& op) const {
+    const auto& axes = places_[i].frame;
+    Row row;
+    linear<S>(row) = transposed_product(op.frame(c), Vector(axes * bonds_[i].opening));
+    angular<S>(row) = op.radius(c) * (S::angular_frame(op.frame(c)).transpose() *
+                                      (S::angular_frame(axes) * bonds_[i].turning));
+    return row;
   }
   void find_corrected(const Bodies<S>& bodies, SharedBodies* shared) {
     if (bonds_.empty() && !shared) return;
@@ -422,7 +465,8 @@ class BondList {
   ContactsOf<Law, S> merged_;
   std::size_t undetected_ = 0;
   std::size_t new_breakages_ = 0;
-  double farthest_ = 0;  // see farthest()
+  double farthest_ = 0;                // see farthest()
+  BondRelaxation<Scalar> relaxation_;  // of rigid bonds
 };
 
 }  // namespace moreau::detail

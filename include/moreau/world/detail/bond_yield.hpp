@@ -35,8 +35,10 @@ struct LoadedBond {
     if (p[0] <= small * step * law.strength().tension) p[0] = 0;
     return p;
   }
+  /// The velocity between its bodies, less that of its springs.
+  Row velocity() const { return op.velocity(contact) - drift; }
   /// The velocity at which the bond yields under the load p.
-  Row yielding(const Row& p) const { return law.yielding(p, Row(op.velocity(contact) - drift)); }
+  Row yielding(const Row& p) const { return law.yielding(p, velocity()); }
   /// The strength in the step of a bond that had the strength s before. Let x be the share that it loses by its velocity. It
   /// is the mean over the opening, s - x / 2, or s^2 / (2 x) if the bond breaks: so it dissipates the area under the line of
   /// softening, whatever the step.
@@ -54,21 +56,34 @@ struct BondYield {
   typename S::Scalar loss = 0;                    ///< of its strength [-]
   typename S::Vector slip = S::Vector::Zero();    ///< in the frame of the bond [m]
   typename S::Angular bend = S::Angular::Zero();  ///< the same [rad]
+  /// Velocity between the bodies of a bond that does not yield: the correction and what the solver leaves, in the frame of the bond [m/s].
+  typename S::Vector opening = S::Vector::Zero();
+  typename S::Angular turning = S::Angular::Zero();  ///< the same [rad/s]
 };
 /// @param frame of the bond, world axes
 template <class S, class Law>
 BondYield<S> yield_of(const LoadedBond<S, Law>& bond, const typename S::Matrix& frame) {
+  using Vector = typename S::Vector;
   BondYield<S> yield;
   const auto p = bond.load();
-  if (!bond.law.yields(p)) return yield;
-  const auto w = bond.yielding(p);
   const auto& of_contact = bond.op.frame(bond.contact);
-  yield.loss = bond.step * bond.law.softening(w);
   const typename S::Matrix turned = frame.transpose() * of_contact;
-  yield.slip = bond.step * (turned * linear<S>(w));
-  yield.bend =
-      bond.step / bond.op.radius(bond.contact) *
-      (S::angular_frame(frame).transpose() * (S::angular_frame(of_contact) * angular<S>(w)));
+  const auto opening_of = [&](const auto& w) { return Vector(turned * linear<S>(w)); };
+  const auto turning_of = [&](const auto& w) {
+    return typename S::Angular(S::angular_frame(frame).transpose() *
+                               (S::angular_frame(of_contact) * angular<S>(w)) /
+                               bond.op.radius(bond.contact));
+  };
+  if (!bond.law.yields(p)) {
+    const auto w = bond.velocity();
+    yield.opening = opening_of(w);
+    yield.turning = turning_of(w);
+    return yield;
+  }
+  const auto w = bond.yielding(p);
+  yield.loss = bond.step * bond.law.softening(w);
+  yield.slip = bond.step * opening_of(w);
+  yield.bend = bond.step * turning_of(w);
   return yield;
 }
 

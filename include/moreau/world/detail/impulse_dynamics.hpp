@@ -309,7 +309,8 @@ class ImpulseDynamics {
     if constexpr (compliant)
       springs_.measure(context, problem_, pushes, attraction_.pulls(), report, shared_.get());
     if constexpr (bonding) {
-      report.bond_load = bonds_.load(pushes, attraction_.pulls(), shared_.get());
+      report.bond_load =
+          bonds_.load(problem_.delassus, pushes, attraction_.pulls(), context.step, shared_.get());
       report.bond_error = bonds_.error(report.bond_load, report.solve.residual);
       bonds_.yield(context.materials, problem_.delassus, context.contacts, pushes, context.step);
     }
@@ -335,8 +336,7 @@ class ImpulseDynamics {
       return velocities_.unloaded(context, c, cell_.jumps(), problem_.delassus);
     };
     if constexpr (bonding)
-      bonds_.refer(problem_.delassus, attraction_.pulls(), context.step, unloaded,
-                   problem_.attraction);
+      bonds_.refer(problem_.delassus, attraction_.pulls(), unloaded, problem_.attraction);
     else if constexpr (AttractiveLaw<Law, S>)
       attraction_.refer(unloaded, problem_.attraction);
     report.solve = solver_.solve(problem_, pushes_.rows(), workspace_);

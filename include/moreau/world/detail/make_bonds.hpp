@@ -84,7 +84,11 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
   for (const auto& [a, b] : pairs) {
     if (std::binary_search(bonded.begin(), bonded.end(), ordered(a, b))) continue;
     dynamics_.bonds().set_bonds(std::move(before));
-    require(false, self, "b", b, "must be within the margin of a, and one of them free to move");
+    require(a != b, self, "b", b, "must be another body than a");
+    const auto is_held = [&](BodyId body) { return bodies().is_prescribed(body.index()); };
+    require(!is_held(a) || !is_held(b), self, "b", b,
+            "must be free to move, or a must be: the motion of both is prescribed");
+    require(false, self, "b", b, "must be within the margin of a");
   }
   return made;
 }
