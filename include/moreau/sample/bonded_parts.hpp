@@ -8,11 +8,13 @@
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/pose.hpp"
+#include "moreau/shape/concepts.hpp"
 
 namespace moreau {
 
 /// Adds the parts of a compound to a simulation of their shape as grains, and bonds those of them that touch: with a
-/// common face at its centre of contact. Bonds to other grains are not made. The grain size of the simulation should be
+/// common face at its centre of contact. Polytopes that touch at an edge or a corner alone get no bond, round parts get one
+/// where they touch. Bonds to other grains are not made. The grain size of the simulation should be
 /// that of the smallest part, as that of the smallest grain.
 /// @param simulation Simulation of Compound::PartShape under a BondingLaw
 /// @param stone      a Compound whose parts do not overlap
@@ -36,7 +38,9 @@ std::vector<BodyId> add_bonded_parts(Simulation& simulation, const Compound& sto
     for (const auto& part : stone.parts())
       parts.push_back(simulation.add_grain(simulation.add_shape(part.shape), pose * part.pose,
                                            density, material));
-    simulation.bond_touching(gap, std::span<const BodyId>(parts));
+    // Polytopes with a common face have at least as many contact points as the space has dimensions.
+    constexpr std::size_t fewest = Polytope<typename Compound::PartShape> ? Simulation::S::dim : 1;
+    simulation.bond_touching(gap, std::span<const BodyId>(parts), fewest);
   } catch (...) {
     simulation.remove_grains(parts);
     throw;

@@ -258,8 +258,11 @@ class Simulation : public BodyControl<ShapeT> {
   ///         body that was placed since the last step, see allow_overlaps()
   std::size_t bond_touching(Scalar gap) requires BondingLaw<Law, SpaceOf<ShapeT>>;
   /// The same for pairs of which both bodies are in `among`; an empty list makes no bond.
+  /// @param fewest_points pairs with fewer contact points within the margin are not bonded. With S::dim polytopes are
+  ///                      bonded at a common face, not where they touch at an edge or a corner alone
   /// @throws std::invalid_argument as the function for all bodies, or for a body that is not of this simulation
-  std::size_t bond_touching(Scalar gap, std::span<const BodyId> among) requires
+  std::size_t bond_touching(Scalar gap, std::span<const BodyId> among,
+                            std::size_t fewest_points = 1) requires
       BondingLaw<Law, SpaceOf<ShapeT>>;
   /// Bonds two bodies at the middle of their contact points, unless they have a bond.
   /// @throws std::invalid_argument for a body that is not of this simulation, or bodies farther apart than the margin,
@@ -402,9 +405,10 @@ class Simulation : public BodyControl<ShapeT> {
   }
 
   /// The two functions bond_touching(): bonds pairs of which is_listed(index) is true for both bodies.
-  std::size_t bond_near(Scalar gap, const auto& is_listed);
-  /// Bonds the pairs of contacts, in the present configuration, for which keeps(contact) is true.
-  std::size_t add_bonds(const char* function, const auto& keeps);
+  std::size_t bond_near(Scalar gap, const auto& is_listed, std::size_t fewest_points);
+  /// Bonds the pairs with at least `fewest_points` contacts, in the present configuration, and one for which
+  /// keeps(contact) is true.
+  std::size_t add_bonds(const char* function, const auto& keeps, std::size_t fewest_points = 1);
 
   /// Detects the contacts at the predicted configuration and assigns their laws.
   /// @param report out: results and times of detection

@@ -83,15 +83,18 @@ class BondList {
   /// Bonds pairs that touch and have no bond yet, at the middle of their contact points.
   /// @param touching contacts in the present configuration
   /// @param keeps    function: contact -> whether its pair is bonded
+  /// @param fewest_points pairs with fewer contact points are not bonded
   /// @returns how many bonds were made
   std::size_t add(const Bodies<S>& bodies, const PeriodicCell<S>& cell,
-                  const ContactsOf<Law, S>& touching, const auto& keeps) {
+                  const ContactsOf<Law, S>& touching, const auto& keeps,
+                  std::size_t fewest_points) {
     const std::size_t before = bonds_.size();
     for (std::size_t first = 0, last; first < touching.size(); first = last) {
       last = end_of_pair(touching, first);
       const auto points = std::span(touching.points).subspan(first, last - first);
       const BodyId a = bodies.id[points[0].a], b = bodies.id[points[0].b];
-      if (std::any_of(points.begin(), points.end(), keeps) && !has(a, b, before))
+      if (std::any_of(points.begin(), points.end(), keeps) && points.size() >= fewest_points &&
+          !has(a, b, before))
         bonds_.push_back(bond_of<S>(points, bodies, cell));
     }
     std::sort(bonds_.begin(), bonds_.end(), [](const Bond<S>& l, const Bond<S>& r) {

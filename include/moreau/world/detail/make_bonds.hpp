@@ -21,31 +21,37 @@ namespace moreau {
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(Scalar gap) requires
     BondingLaw<Law, SpaceOf<ShapeT>> {
-  return bond_near(gap, [](std::uint32_t) { return true; });
+  return bond_near(
+      gap, [](std::uint32_t) { return true; }, 1);
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_touching(
-    Scalar gap, std::span<const BodyId> among) requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    Scalar gap, std::span<const BodyId> among,
+    std::size_t fewest_points) requires BondingLaw<Law, SpaceOf<ShapeT>> {
   std::vector<bool> listed(bodies().size(), false);
   for (const BodyId body : among) {
     assembly_.require_body(body, "Simulation::bond_touching");
     listed[body.index()] = true;
   }
-  return bond_near(gap, [&](std::uint32_t body) { return bool(listed[body]); });
+  return bond_near(
+      gap, [&](std::uint32_t body) { return bool(listed[body]); }, fewest_points);
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_near(Scalar gap,
-                                                                          const auto& is_listed) {
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_near(
+    Scalar gap, const auto& is_listed, std::size_t fewest_points) {
   constexpr const char* self = "Simulation::bond_touching";
   require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
   Scalar nearest = std::numeric_limits<Scalar>::infinity();
-  const std::size_t made = add_bonds(self, [&](const Contact<S>& contact) {
-    if (!is_listed(contact.a) || !is_listed(contact.b)) return false;
-    nearest = std::min(nearest, contact.gap);
-    return contact.gap <= gap;
-  });
+  const std::size_t made = add_bonds(
+      self,
+      [&](const Contact<S>& contact) {
+        if (!is_listed(contact.a) || !is_listed(contact.b)) return false;
+        nearest = std::min(nearest, contact.gap);
+        return contact.gap <= gap;
+      },
+      fewest_points);
   dynamics_.bonds().note_missed(bonds().empty() ? std::max(nearest, Scalar(0)) : Scalar(-1));
   return made;
 }
@@ -94,8 +100,8 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const char* function,
-                                                                          const auto& keeps) {
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(
+    const char* function, const auto& keeps, std::size_t fewest_points) {
   ContactsOf<Law, S> touching;
   detector_.place(std::span<const Pose<S>>(bodies().pose),
                   [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
@@ -106,7 +112,7 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const 
   detector_.detect(lengths(), bodies(), contacts_, touching);
   assembly_.keep_poses(0);  // nothing has moved
   assembly_.require_no_deep_overlap(touching, function, [] {});
-  return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
+  return dynamics_.bonds().add(bodies(), cell(), touching, keeps, fewest_points);
 }
 
 }  // namespace moreau
