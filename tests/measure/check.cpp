@@ -447,6 +447,14 @@ TEST_CASE_TEMPLATE(
       const auto all = check(c, c.step(T(1e-4)));
       CHECK(one_contains(all, "it can pass through others") == (steps > 1));
       CHECK(all.size() == std::size_t(steps > 1));
+      // The same of a grain of prescribed motion, but not of a half-space that moves along itself.
+      auto d = world();
+      d.prescribe_motion(BodyId(1));
+      d.set_velocity(BodyId(1), steps * size / T(1e-4) * Vector::UnitX());
+      d.set_velocity(BodyId(2), T(60) * size / T(1e-4) * Vector::UnitX());
+      const auto of_paddle = check(d, d.step(T(1e-4)));
+      CHECK(one_contains(of_paddle, "body 1 moves by") == (steps > 1));
+      CHECK(of_paddle.size() == std::size_t(steps > 1));
     }
   }
 }

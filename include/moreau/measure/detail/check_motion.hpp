@@ -25,9 +25,10 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
     if (!bodies.exists(i)) continue;
     if (bodies.is_prescribed(i)) {
       if (in_vain == bodies.size() && !bodies.force[i].isZero(0)) in_vain = i;
-      continue;
+      if (!simulation.is_grain(i)) continue;  // a half-space may move along itself at any speed
+    } else {
+      any_free = true;
     }
-    any_free = true;
     const auto speed = double(linear<S>(bodies.velocity[i]).norm());
     if (speed > most) fastest = i, most = speed;
   }
