@@ -9,6 +9,7 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/contact_classes.hpp"
+#include "moreau/measure/force_chains.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/world/simulation.hpp"
@@ -34,6 +35,8 @@ TEST_CASE("coordination() of a stack counts pairs, not contact points, and walls
   CHECK(all.grains == 4);
   CHECK(all.pairs == 3);
   CHECK(all.points == 6);
+  // Where many headers are read together, those of detection come before: they have a type ContactSegment, too.
+  CHECK(force_chains(world, 1e-3).size() == 6);
   CHECK(all.neighbours == doctest::Approx(5 / 4.0));
   CHECK(all.points_per_grain == doctest::Approx(10 / 4.0));
   const Coordination without = coordination(world, 1);
