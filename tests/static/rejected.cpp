@@ -260,6 +260,21 @@ struct Law : moreau::SignoriniCoulomb<> {
 const moreau::Simulation<moreau::Ball<>, Law> world(1, moreau::Materials<Law>(1, Law()));
 #endif  // variant_that_is_not_const
 
+#ifdef theta_that_is_not_const
+// A theta that is not const: springs, bonds and cells would take 1/2.
+// expect: theta\(\) of Integrator must be const
+#include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/motion/moreau_jean.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
+
+struct Late : moreau::MoreauJean {
+  double theta() EITHER(, const) { return 1; }
+};
+const moreau::Simulation<moreau::Ball<>, moreau::SignoriniCoulomb<>, Late> world(
+    1, moreau::Materials<moreau::SignoriniCoulomb<>>(1, moreau::SignoriniCoulomb<>(0.4)));
+#endif  // theta_that_is_not_const
+
 #ifdef restitution_that_is_not_const
 // A restitution that is not const: the springs would take it for 0.
 // expect: restitution\(\) of Law must be const

@@ -21,8 +21,14 @@ namespace moreau {
 /// h is the step [s], and gravity is an acceleration [m/s^2]. momentum, free and after have one
 /// element per body. Velocities are twists (v, w) [m/s, rad/s]. All quantities are in world axes.
 ///
-/// Optional: theta(), the part of the step that comes after detection [-]. Springs, bonds and cells that deform need it;
-/// without it they take 1/2.
+/// Optional functions, const:
+///
+/// - theta(): the part of the step that comes after detection [-]. Springs, bonds and cells that deform need it;
+///   without it they take 1/2
+/// - with_theta(theta): the same integrator with another theta. Springs need it where a step is more than twice as long as
+///   the step before (law/compliant.hpp); without it they can produce energy there
+///
+/// The required functions may take a Team as one more argument, the threads of the simulation.
 template <class I, class S>
 concept ImpulseIntegrator = requires(const I integrator, Bodies<S> bodies,
                                      std::span<typename S::Angular> momentum,

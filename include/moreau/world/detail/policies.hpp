@@ -127,6 +127,16 @@ struct Policies {
                 "Simulation: Integrator offers the functions neither of an ImpulseIntegrator nor "
                 "of a ForceIntegrator with the types of the shape's space; assert the concept to "
                 "see what is missing");
+  static_assert(
+      !requires(Integrator & i) { i.theta(); } ||
+          requires(const Integrator& i) {
+            { i.theta() } -> std::convertible_to<double>;
+          },
+      "Simulation: theta() of Integrator must be const and return a number");
+  static_assert(
+      !requires(Integrator & i) { i.with_theta(0.5); } ||
+          requires(const Integrator& i) { i.with_theta(0.5); },
+      "Simulation: with_theta() of Integrator must be const");
   static_assert(!set_valued || !integrates || ImpulseIntegrator<Integrator, S>,
                 "Simulation: a set-valued law gives impulses, which an integrator of forces such "
                 "as VelocityVerlet cannot take; use MoreauJean or a regularized law");
