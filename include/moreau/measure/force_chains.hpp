@@ -67,11 +67,10 @@ namespace detail {
 
 /// Replaces the contents of `segments` by the segments of the contact points that a filter takes.
 /// @param takes function: normal impulse of a contact point [N s] -> whether it is taken
-/// (detail::ContactSegment is a line of contact of two polytopes: the type has its whole name here.)
 template <class S, int Rows>
 void list_segments(const Contacts<S, Rows>& contacts, typename S::Scalar step,
                    const auto& position_of, const auto& is_grain, const PeriodicCell<S>& cell,
-                   const auto& takes, std::vector<moreau::ContactSegment<S>>& segments) {
+                   const auto& takes, std::vector<ContactSegment<S>>& segments) {
   segments.clear();
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (takes(contacts.impulses[c][0]))

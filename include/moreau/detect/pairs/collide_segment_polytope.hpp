@@ -129,7 +129,7 @@ bool add_corners(const Placed<Segment<Space<2, T>>>& a, const Placed<Polygon<T>>
   const Vector towards_a = -found.normal, offset = b.center() - a.center();
   const auto edge = facing_feature(b, FeatureKind::vertex, b.vertices().farthest(towards_a).index,
                                    towards_a, margin - found.gap);
-  ContactSegment<T>(a, 0, b, edge, offset, found.normal, near)
+  ContactLine<T>(a, 0, b, edge, offset, found.normal, near)
       .for_each_corner([&](const auto& corner) {
         if (corner.gap <= margin) out.points.push_back(corner);
       });

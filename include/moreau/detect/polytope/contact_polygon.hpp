@@ -4,7 +4,7 @@
 // polytopes get their gaps here.
 //
 // In space the features are faces, and the overlap of their projections is a convex polygon. In the
-// plane the features are edges, and the overlap of their projections is a segment (contact_segment.hpp). A corner of the
+// plane the features are edges, and the overlap of their projections is a segment (contact_line.hpp). A corner of the
 // overlap is a vertex of one feature inside the other feature or, in space, a crossing of two
 // edges. The gap at a corner is the height of b's surface minus the height of a's surface, both
 // along the normal; it is negative where the shapes overlap. The contact point lies midway between
@@ -28,7 +28,7 @@
 
 #include "moreau/core/list.hpp"
 #include "moreau/detect/manifold.hpp"
-#include "moreau/detect/polytope/contact_segment.hpp"
+#include "moreau/detect/polytope/contact_line.hpp"
 #include "moreau/detect/polytope/facing_features.hpp"
 #include "moreau/simd/wide.hpp"
 
@@ -326,9 +326,8 @@ ContactPolygon<T> contact_polygon(const PolytopePair<Polyhedron<T>>& pair,
   return polygon;
 }
 template <std::floating_point T>
-ContactSegment<T> contact_polygon(const PolytopePair<Polygon<T>>& pair,
-                                  const FacingFeatures& facing,
-                                  const typename Space<2, T>::Vector& normal, List<T>&) {
+ContactLine<T> contact_polygon(const PolytopePair<Polygon<T>>& pair, const FacingFeatures& facing,
+                               const typename Space<2, T>::Vector& normal, List<T>&) {
   return {pair.a,
           facing.a,
           pair.b,

@@ -20,7 +20,7 @@ namespace moreau::detail {
 /// polygon or is a segment shape; edge b belongs to a polygon. Coordinates are relative to the
 /// centre of a [m]: x along the tangent, h along the normal.
 template <std::floating_point T>
-class ContactSegment {
+class ContactLine {
  public:
   using S = Space<2, T>;
   using Vector = typename S::Vector;
@@ -30,8 +30,8 @@ class ContactSegment {
   /// @param offset  centre of b minus centre of a, world axes [m]
   /// @param near    two ends closer together than this count as one point [m]
   template <class ShapeA>
-  ContactSegment(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
-                 const Vector& offset, const Vector& normal, T near)
+  ContactLine(const ShapeA& a, std::uint32_t edge_a, const Shape& b, std::uint32_t edge_b,
+              const Vector& offset, const Vector& normal, T near)
       : center_(a.center()), frame_(S::contact_frame(normal)), near_(near) {
     a_ = project(a, edge_a, Vector::Zero());
     b_ = project(b, edge_b, offset);
