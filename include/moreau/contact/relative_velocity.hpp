@@ -8,7 +8,7 @@
 // - the direct method for islands has rows of J (solve/detail/jacobian_rows.hpp)
 // - the overlap correction computes changes of gaps by displacements from rows of its own (world/detail/overlap_sweeps.hpp)
 // - the choice of margins bounds it at the centre of a body (relative_speed() in world/detail/step_margins.hpp)
-// - a periodic cell that deforms adds a term (world/detail/cell_jumps.hpp)
+// - a periodic cell that deforms adds a term (world/detail/cell/cell_jumps.hpp)
 //
 // The operator of a contact problem adds the relative spin of contacts with couples, and turns both into its rows
 // (BodyDelassus::row()).

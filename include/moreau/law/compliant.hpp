@@ -67,7 +67,7 @@
 //
 // Under a law that attracts with the force T, p = r + h T n takes the place of r, and s is that of p
 // (world/detail/pushes.hpp): the springs carry the push against the attraction. The spring force of a bond follows from the
-// stretch of the bond (world/detail/bond_list.hpp), not from an impulse of the step before. When the bond breaks, the energy of
+// stretch of the bond (world/detail/bonds/bond_list.hpp), not from an impulse of the step before. When the bond breaks, the energy of
 // its springs is dissipated, and the contact of its pair starts without load.
 //
 // Source of springs as a regularization with one diagonal matrix for stiffness and step: C.

@@ -39,7 +39,7 @@
 //
 // The equation is implicit: sigma has the contact forces of the step, and the velocities of the contacts are those with
 // the rate L+ at the end of the step. The cell is a body with the velocity L that all contacts touch, so that jammed
-// grains without compliance can bear a stress. detail/cell_servo.hpp solves both together. Between L before the step and
+// grains without compliance can bear a stress. detail/cell/cell_servo.hpp solves both together. Between L before the step and
 // L+, the cell moves as a body does: with L up to the detection, with L+ from then on; the work of the contacts has the
 // mean of both.
 #pragma once

@@ -460,7 +460,7 @@ class Simulation : public BodyControl<ShapeT> {
 // Functions that are not in the class are not inline: a program can instantiate them in one source and declare them
 // extern (moreau/instances). A function in the class is inline, and is compiled in each unit that uses it.
 #include "moreau/world/detail/add_bodies.hpp"
-#include "moreau/world/detail/make_bonds.hpp"
+#include "moreau/world/detail/bonds/make_bonds.hpp"
+#include "moreau/world/detail/cell/set_cell.hpp"
 #include "moreau/world/detail/make_simulation.hpp"
-#include "moreau/world/detail/set_cell.hpp"
 #include "moreau/world/detail/simulation_step.hpp"

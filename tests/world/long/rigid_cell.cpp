@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rigid grains in a periodic cell that moves by its stress (world/detail/cell_servo.hpp).
+// Rigid grains in a periodic cell that moves by its stress (world/detail/cell/cell_servo.hpp).
 #include <cmath>
 #include <doctest/doctest.h>
 #include <type_traits>

@@ -4,7 +4,7 @@
 //
 //     u_c contains F^T Lambda d,     Lambda_ij += R_ij p_i d_j,       d = l_a - l_b,
 //
-// with the response R of the cell (world/detail/cell_servo.hpp).
+// with the response R of the cell (world/detail/cell/cell_servo.hpp).
 #pragma once
 
 #include <cstddef>

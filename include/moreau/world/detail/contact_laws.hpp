@@ -18,7 +18,7 @@
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/world/detail/cell_jumps.hpp"
+#include "moreau/world/detail/cell/cell_jumps.hpp"
 #include "moreau/world/detail/chord_velocities.hpp"
 #include "moreau/world/detail/closing_contacts.hpp"
 #include "moreau/world/detail/restitution_limit.hpp"

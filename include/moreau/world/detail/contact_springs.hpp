@@ -21,7 +21,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
-#include "moreau/world/detail/cell_jumps.hpp"
+#include "moreau/world/detail/cell/cell_jumps.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 #include "moreau/world/tolerances.hpp"

@@ -21,7 +21,7 @@
 #include "moreau/motion/mobility.hpp"
 #include "moreau/parallel/team.hpp"
 #include "moreau/solve/concepts.hpp"
-#include "moreau/world/detail/cell_jumps.hpp"
+#include "moreau/world/detail/cell/cell_jumps.hpp"
 #include "moreau/world/detail/integrate.hpp"
 #include "moreau/world/detail/step_context.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "moreau/law/concepts.hpp"
 #include "moreau/parallel/team.hpp"
-#include "moreau/world/detail/cell_jumps.hpp"
-#include "moreau/world/detail/cell_servo.hpp"
+#include "moreau/world/detail/cell/cell_jumps.hpp"
+#include "moreau/world/detail/cell/cell_servo.hpp"
 #include "moreau/world/detail/step_context.hpp"
 #include "moreau/world/step_report.hpp"
 

@@ -51,11 +51,11 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/world/bond.hpp"
-#include "moreau/world/detail/bond_arcs.hpp"
-#include "moreau/world/detail/bond_relaxation.hpp"
-#include "moreau/world/detail/bond_yield.hpp"
+#include "moreau/world/detail/bonds/bond_arcs.hpp"
+#include "moreau/world/detail/bonds/bond_relaxation.hpp"
+#include "moreau/world/detail/bonds/bond_yield.hpp"
+#include "moreau/world/detail/bonds/corrected_bonds.hpp"
 #include "moreau/world/detail/contact_losses.hpp"
-#include "moreau/world/detail/corrected_bonds.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {

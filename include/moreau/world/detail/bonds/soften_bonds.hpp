@@ -11,7 +11,7 @@
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
 #include "moreau/world/detail/attraction.hpp"
-#include "moreau/world/detail/bond_list.hpp"
+#include "moreau/world/detail/bonds/bond_list.hpp"
 #include "moreau/world/detail/step_context.hpp"
 
 namespace moreau::detail {
