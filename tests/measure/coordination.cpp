@@ -35,7 +35,7 @@ TEST_CASE("coordination() of a stack counts pairs, not contact points, and walls
   CHECK(all.grains == 4);
   CHECK(all.pairs == 3);
   CHECK(all.points == 6);
-  // Where many headers are read together, those of detection come before: they have a type ContactSegment, too.
+  // Where many headers are read together, those of detection come before: no name of theirs may hide the type of a segment.
   CHECK(force_chains(world, 1e-3).size() == 6);
   CHECK(all.neighbours == doctest::Approx(5 / 4.0));
   CHECK(all.points_per_grain == doctest::Approx(10 / 4.0));
