@@ -17,6 +17,7 @@
 #include "moreau/contact/contact.hpp"
 #include "moreau/contact/relative_velocity.hpp"
 #include "moreau/core/aabb.hpp"
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/ids.hpp"
@@ -333,7 +334,7 @@ class Assembly {
                            const char*) {}
   /// The smallest width of a grain (smallest_width.hpp) [m]; infinite for a wall. The width of a shape is computed once:
   /// that of a hull with 300 vertices takes 1.8e5 dot products.
-  Scalar width_of(std::uint32_t body) {
+  MOREAU_COLD Scalar width_of(std::uint32_t body) {
     constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
     if (!(bodies_.grain_mass[body] > 0)) return infinity;
     const ShapeId shape = grains_[number_of_grain(bodies_.id[body], "Simulation::step")].shape;
