@@ -86,6 +86,7 @@ static_assert(BridgingLaw<Bridged<CapillaryBridge<>>, S> &&
               BridgingLaw<Bridged<LinearCohesion<>>, S>);
 static_assert(BondingLaw<Bonded<>, S> && RollingLaw<Bonded<>, S> && LaneLaw<Bonded<>, S>);
 static_assert(RollingLaw<RollingResistance<>, S> && Rolls<RollingResistance<>>);
+static_assert(RollingCoulombLaw<RollingResistance<>, S> && !CoulombLaw<RollingResistance<>, S>);
 static_assert(CompliantLaw<Compliant<SignoriniCoulomb<>>, S>);
 static_assert(TangentialRestitutionLaw<TangentialRestitution<>, S>);
 static_assert(CoulombLaw<SignoriniCoulomb<>, S> && CoulombLaw<Frictionless<>, S>);

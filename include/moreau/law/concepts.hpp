@@ -6,7 +6,7 @@
 // |---|---|---|
 // | rolls | Rolls | the impulse has no couple |
 // | ActsWhereGapsClose | ActsWhereGapsClose | all pairs within the margin have contacts |
-// | is_coulomb | CoulombLaw | no direct method for islands, no ProximalFallback, no gather_problem |
+// | is_coulomb | CoulombLaw, RollingCoulombLaw | no direct method for islands, no ProximalFallback, no gather_problem |
 // | friction() | FrictionLaw | no CoulombLaw; check() does not judge the friction |
 // | restitution() | RestitutionLaw | Compliant<Law> takes e = 0 |
 // | variants, variant(k), variant_after(k, impulse) | StatefulLaw | one variant |
@@ -139,6 +139,17 @@ template <class L, class S>
 concept CoulombLaw = PointLaw<L, S> && FrictionLaw<L> && requires {
   requires L::is_coulomb;
   requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::friction))>;
+};
+
+/// A law with couples whose local problem is that of the cone |r_t| <= friction() r_n, |m| <= rolling() r_n, with slip
+/// against r_t and rotation against m as in rolling_resistance.hpp, so that other methods than its solve() may solve it. It
+/// says so by `static constexpr bool is_coulomb = true`. A law that derives from one is one unless it has a solve() of its own.
+template <class L, class S>
+concept RollingCoulombLaw = RollingLaw<L, S> && requires(const L law) {
+  { law.friction() } -> std::convertible_to<double>;
+  { law.rolling() } -> std::convertible_to<double>;
+  requires L::is_coulomb;
+  requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::rolling))>;
 };
 
 /// A law under which a contact with a gap g > 0 acts only if g + h u_n < 0, u_n being its velocity at the end of the step

@@ -63,6 +63,7 @@ class RollingResistance {
  public:
   using ActsWhereGapsClose = RollingResistance;  ///< see the concept of this name
   static constexpr bool rolls = true;            ///< see SetValuedLaw
+  static constexpr bool is_coulomb = true;       ///< see RollingCoulombLaw
 
   /// @param friction    mu >= 0 [-]
   /// @param rolling     eta >= 0 [-]: largest couple over (effective radius x normal impulse)

@@ -13,8 +13,8 @@
 //    stopping test visits all contacts and updates the set, and so do sweeps 1, 2, 4, 8, .. of the first interval.
 //
 // Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
-// bodies by a direct method, if the law is Coulomb's (detail/island_solver.hpp, island_newton.hpp). Sweeps do not reach this
-// tolerance in chains of contacts: the residual is relative to the largest impulses, and small errors of many contacts add up.
+// bodies by a direct method, if the law is Coulomb's or that of RollingResistance (detail/island_solver.hpp, island_newton.hpp). Sweeps
+// do not reach this tolerance in chains of contacts: the residual is relative to the largest impulses, and small errors of many contacts add up.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
 // solution of the law, for Coulomb's law that of law/detail/coulomb_lanes.hpp.
@@ -80,7 +80,7 @@ struct ColouredOptions {
 class ColouredGaussSeidel {
  public:
   using Options = ColouredOptions;
-  /// In place of the islands of a law that is not Coulomb's.
+  /// In place of the islands of a law that the direct method does not solve.
   struct NoIslands {};
   /// Buffers, kept from step to step.
   template <class Operator, class Law>
@@ -89,7 +89,7 @@ class ColouredGaussSeidel {
     detail::ColouredSweeps<Operator, Law> sweeps;  ///< packed contacts and their impulses
     List<typename Operator::Vector> first;         ///< result of sweeps [N s]
     /// Small islands; contacts with other laws are solved by sweeps alone.
-    std::conditional_t<CoulombLaw<Law, typename Operator::Space>,
+    std::conditional_t<detail::HasIslands<Law, typename Operator::Space>,
                        detail::IslandSolver<Operator, Law>, NoIslands>
         islands;
   };
@@ -120,7 +120,7 @@ class ColouredGaussSeidel {
                     Workspace<Operator, Law>& workspace, bool again = false) const {
     if (!again) workspace.sweeps.forget();
     detail::drop_if_not_finite(impulses);
-    if constexpr (CoulombLaw<Law, typename Operator::Space>)
+    if constexpr (detail::HasIslands<Law, typename Operator::Space>)
       if (options_.islands && !shared_ && !problem.delassus.has_cell())
         return solve_with_islands(problem, impulses, workspace);
     return sweep(problem, impulses, workspace);

@@ -38,6 +38,9 @@
 // proximal step would then change the pressure by the remaining velocity over s, the same in every step: the steps do
 // not converge, or end with the load on few points. Where faces slide, the part of such a velocity up to the tolerance
 // on the velocities of the bodies is therefore left out of b, and counts as an error of the velocities.
+//
+// With couples (law/rolling_resistance.hpp) the rows of a contact are the impulse and the couple / R, the cone has a second disc,
+// and the lift is sigma = mu |u_t| + eta |w|: solve/detail/couple_response.hpp. All the rest is the same.
 #pragma once
 
 #include <algorithm>
@@ -53,12 +56,14 @@
 namespace moreau::detail {
 
 /// The direct method for one island; the head of this file has the equations. Keeps its memory.
-template <class SpaceT>
+/// @tparam Couples whether a contact has D + A rows
+template <class SpaceT, bool Couples = false>
 class IslandNewton {
  public:
-  using Points = IslandPoints<SpaceT>;
+  using Step = ProximalStep<SpaceT, Couples>;
+  using Points = typename Step::Points;
   using S = typename Points::S;
-  using Impulse = typename SpaceT::Vector;
+  using Impulse = typename Step::Impulse;
 
   /// How to solve an island.
   struct Precision {
@@ -70,22 +75,27 @@ class IslandNewton {
   /// Takes an island.
   /// @param op       operator of the problem
   /// @param contacts of the island
-  /// @param free_of  function: contact -> b, D entries [m/s]; not finite if the contact cannot act
+  /// @param free_of  function: contact -> b, its rows [m/s]; not finite if the contact cannot act
   /// @param opening_of function: contact -> part of b_n that an open gap adds, 0 if it is not known [m/s]
-  /// @param friction_of function: contact -> mu [-]
+  /// @param coefficients_of function: contact -> mu and eta, those of friction and of rolling resistance [-]
   template <class Operator>
   void assign(const Operator& op, std::span<const std::uint32_t> contacts, const auto& free_of,
-              const auto& opening_of, const auto& friction_of) {
+              const auto& opening_of, const auto& coefficients_of) {
     Points& points = step_.points();
     points.start(op.body_count());
     for (const std::uint32_t c : contacts) {
       const auto [a, b] = op.bodies(c);
       Vector compliance = Vector::Zero();
       if constexpr (requires { op.compliance(c); })
-        compliance = op.compliance(c).template head<S::dim>().template cast<double>();
-      points.add({c, a, b, op.frame(c), op.lever_a(c), op.lever_b(c),
-                  free_of(c).template cast<double>(), opening_of(c), compliance, friction_of(c)},
-                 op.inverse_masses(), op.freedoms());
+        compliance =
+            op.compliance(c).template head<Points::rows_of_contact>().template cast<double>();
+      const auto [friction, rolling] = coefficients_of(c);
+      double radius = 0;
+      if constexpr (Couples) radius = double(op.radius(c));
+      points.add(
+          {c, a, b, op.frame(c), op.lever_a(c), op.lever_b(c), free_of(c).template cast<double>(),
+           opening_of(c), compliance, friction, rolling, radius},
+          op.inverse_masses(), op.freedoms());
     }
     points.finish();
     step_.make_room();
@@ -215,7 +225,6 @@ class IslandNewton {
 
  private:
   using Vector = typename Points::Vector;
-  using Step = ProximalStep<SpaceT>;
   static constexpr double lower = 0.1;
   static constexpr int polish_steps = 12;  // steps below the tolerance only after fewer than these
   /// Measured: response and assembly of a contact, and product of two blocks, in visits of a sweep.

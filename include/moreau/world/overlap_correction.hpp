@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -191,7 +192,8 @@ class OverlapCorrection {
       offset[0] = -target(depths_[c], largest);
       return offset;
     };
-    const auto none = [](std::size_t) { return 0.0; };  // neither open gaps nor friction
+    const auto closed = [](std::size_t) { return 0.0; };
+    const auto frictionless = [](std::size_t) { return std::array<double, 2>{}; };
     for (std::size_t k = 0; k < islands.size(); ++k) {
       const auto own = islands.contacts(k);
       // The bodies touch like those of a column, an arch or a tree if no more pairs do than there are bodies.
@@ -199,7 +201,7 @@ class OverlapCorrection {
           std::none_of(own.begin(), own.end(), is_deep))
         continue;
       for (const std::uint32_t c : own) pushes_[c].setZero();
-      newton_.assign(op, own, free, none, none);
+      newton_.assign(op, own, free, closed, frictionless);
       newton_.start(pushes_, [&](std::uint32_t) { return double(slop) / 100; });
       if (!(newton_.solve(first_epsilon, precision) <= precision.tolerance)) continue;
       newton_.finish(pushes_);

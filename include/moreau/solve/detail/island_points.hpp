@@ -5,7 +5,8 @@
 //     u = b + J y + C r,        y = J^T r  for a solution,
 //
 // where J stands for J R, and C is the compliance of the contacts, which is zero for rigid ones. |y|^2 / 2 is a
-// kinetic energy. Axes along which a body cannot move have a zero column in R.
+// kinetic energy. Axes along which a body cannot move have a zero column in R. With couples a contact has A rows more
+// (law/rolling_block.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -28,11 +29,11 @@
 namespace moreau::detail {
 
 /// The impulse of one contact as a function of u, and its derivative.
-template <class S>
+/// @tparam Rows of the contact: D, with couples D + A
+template <int Rows>
 struct ContactResponse {
-  Eigen::Matrix<double, S::dim, 1> impulse;  ///< [N s]
-  Eigen::Matrix<double, S::dim, S::dim>
-      stiffness;  ///< - d impulse / d u [kg], symmetric, not negative
+  Eigen::Matrix<double, Rows, 1> impulse;       ///< [N s]
+  Eigen::Matrix<double, Rows, Rows> stiffness;  ///< - d impulse / d u [kg], symmetric, not negative
 };
 
 /// Whether response() has no impulse: b is in K*.
@@ -48,10 +49,10 @@ bool is_open(double mu, const Eigen::Matrix<double, S::dim, 1>& b) {
 /// @param mu friction coefficient [-]
 /// @param s  diagonal of the compliance, equal for all tangents, > 0 [1/kg]
 template <class S>
-ContactResponse<S> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s,
-                            const Eigen::Matrix<double, S::dim, 1>& b) {
+ContactResponse<S::dim> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s,
+                                 const Eigen::Matrix<double, S::dim, 1>& b) {
   constexpr int dim = S::dim;
-  ContactResponse<S> answer;
+  ContactResponse<S::dim> answer;
   answer.stiffness.setZero();
   // In the coordinates sqrt(s) r the projection is orthogonal, onto a cone of another angle.
   const double stretch = std::sqrt(s[1] / s[0]), slope = mu * stretch;
@@ -91,13 +92,14 @@ ContactResponse<S> response(double mu, const Eigen::Matrix<double, S::dim, 1>& s
 }
 
 /// The contacts of one island; the head of this file has the coordinates.
-template <class SpaceT>
+/// @tparam Couples whether a contact has D + A rows
+template <class SpaceT, bool Couples = false>
 class IslandPoints {
  public:
   using S = SpaceT;
-  static constexpr int dim = S::dim, dofs = S::dofs;
-  using Vector = Eigen::Matrix<double, dim, 1>;
-  using Rows = Eigen::Matrix<double, dim, dofs>;
+  static constexpr int dim = S::dim, dofs = S::dofs, rows_of_contact = Couples ? dofs : dim;
+  using Vector = Eigen::Matrix<double, rows_of_contact, 1>;
+  using Rows = Eigen::Matrix<double, rows_of_contact, dofs>;
   using Coordinates = Eigen::Matrix<double, dofs, 1>;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -112,7 +114,7 @@ class IslandPoints {
     double mobility_a, mobility_b;
     std::uint32_t body_a, body_b;  ///< in the island; none: cannot move
     std::uint32_t contact;         ///< in the problem
-    double friction;               ///< mu [-]
+    double friction, rolling;      ///< mu, eta [-]
     std::uint32_t face;  ///< contacts that follow one another, of two bodies and with one normal
   };
 
@@ -124,7 +126,8 @@ class IslandPoints {
     Vector free;                                  ///< b [m/s]; not finite if the contact cannot act
     double opening;                               ///< part of b_n that an open gap adds [m/s]
     Vector compliance;                            ///< C [1/kg]
-    double friction;                              ///< mu [-]
+    double friction, rolling;                     ///< mu, eta [-]
+    double radius = 0;                            ///< R, with couples [m]
   };
 
   /// Begins an island of a problem with so many bodies.
@@ -150,14 +153,16 @@ class IslandPoints {
     point.compliance = source.compliance;
     point.contact = source.contact;
     point.friction = source.friction;
+    point.rolling = source.rolling;
     const auto number = [&](std::uint32_t body) {
       return moves[body] ? local(body, masses[body]) : none;
     };
     point.body_a = number(source.body_a);
     point.body_b = number(source.body_b);
-    point.a = rows(source.frame, point.body_a, source.lever_a, -1);
-    point.b = rows(source.frame, point.body_b, source.lever_b, 1);
-    const double square_a = point.a.squaredNorm() / dim, square_b = point.b.squaredNorm() / dim;
+    point.a = rows(source, point.body_a, source.lever_a, -1);
+    point.b = rows(source, point.body_b, source.lever_b, 1);
+    const double square_a = point.a.squaredNorm() / rows_of_contact,
+                 square_b = point.b.squaredNorm() / rows_of_contact;
     point.mobility_a = std::sqrt(square_a);
     point.mobility_b = std::sqrt(square_b);
     point.diagonal = square_a + square_b;
@@ -252,11 +257,15 @@ class IslandPoints {
     }
     return l;
   }
-  MOREAU_COMPILED_ONCE Rows rows(const typename S::Matrix& frame, std::uint32_t body,
+  MOREAU_COMPILED_ONCE Rows rows(const Source& source, std::uint32_t body,
                                  const typename S::Vector& lever, double sign) const {
     Rows by_root = Rows::Zero();
     if (body == none) return by_root;
-    add_product(by_root, jacobian_rows<S>(frame, lever, sign), roots_[body]);
+    if constexpr (Couples)
+      add_product(by_root, jacobian_rows<S>(source.frame, lever, source.radius, sign),
+                  roots_[body]);
+    else
+      add_product(by_root, jacobian_rows<S>(source.frame, lever, sign), roots_[body]);
     return by_root;
   }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,11 @@
 #include "moreau/solve/solve_report.hpp"
 
 namespace moreau::detail {
+
+/// Whether the direct method solves the contacts of a law: Coulomb's, or that with couples. Of rigid bonds the impulses and
+/// their limits are those of the strength, beside which loads can be small.
+template <class Law, class S>
+concept HasIslands = CoulombLaw<Law, S> ||(RollingCoulombLaw<Law, S> && !BondingLaw<Law, S>);
 
 /// The small islands of one contact problem: those of at least two contacts for
 /// which steps of Newton's method are cheap. A single contact is solved exactly by every sweep. Keeps its memory.
@@ -171,7 +177,8 @@ class IslandSolver {
   }
 
  private:
-  using Newton = IslandNewton<typename Operator::Space>;
+  static constexpr bool couples = Rolls<Law>;
+  using Newton = IslandNewton<typename Operator::Space, couples>;
   struct Small {
     std::size_t island;
     double cost;  // of a Newton step, in visits of its contacts by a sweep, at first a lower bound
@@ -337,25 +344,39 @@ class IslandSolver {
         problem.delassus, islands_->contacts(island),
         [&](std::size_t c) { return free_velocity(problem, c); },
         [&](std::size_t c) { return opening(problem, c); },
-        [&](std::size_t c) { return double(problem.law(c).friction()); });
+        [&](std::size_t c) { return coefficients(problem.law(c)); });
+  }
+  /// Those of friction and of rolling resistance [-].
+  static std::array<double, 2> coefficients(const Law& law) {
+    if constexpr (couples)
+      return {double(law.friction()), double(law.rolling())};
+    else
+      return {double(law.friction()), 0};
+  }
+  /// J of a contact for one of its bodies, see jacobian_rows().
+  static auto rows_of(const Operator& op, std::size_t c,
+                      const typename Operator::Space::Vector& lever, double sign) {
+    if constexpr (couples)
+      return jacobian_rows<typename Operator::Space>(op.frame(c), lever, double(op.radius(c)),
+                                                     sign);
+    else
+      return jacobian_rows<typename Operator::Space>(op.frame(c), lever, sign);
   }
   /// b of a contact [m/s]. In single precision b has the rounding of the velocities of the bodies. Two points of a face
   /// would then have to close at velocities that no motion of the bodies has, and impulses become as large as this
   /// rounding over the compliance of a step. In double precision the velocities of the bodies agree.
-  static Eigen::Matrix<double, Operator::Space::dim, 1> free_velocity(const Problem& problem,
-                                                                      std::size_t c) {
-    using S = typename Operator::Space;
+  static Eigen::Matrix<double, Impulse::RowsAtCompileTime, 1> free_velocity(const Problem& problem,
+                                                                            std::size_t c) {
     const auto rounded = problem.delassus.free_velocity(c).template cast<double>().eval();
     if constexpr (std::is_same_v<typename Operator::Scalar, float>) {
       if (problem.free.empty() || !rounded.allFinite()) return rounded;
       const auto [a, b] = problem.delassus.bodies(c);
-      const auto& frame = problem.delassus.frame(c);
       const auto of_a = problem.free[a].template cast<double>().eval(),
                  of_b = problem.free[b].template cast<double>().eval();
-      const auto rows_a = jacobian_rows<S>(frame, problem.delassus.lever_a(c), -1),
-                 rows_b = jacobian_rows<S>(frame, problem.delassus.lever_b(c), 1);
-      Eigen::Matrix<double, S::dim, 1> exact = rounded;
-      for (int k = 0; k < S::dim; ++k) {
+      const auto rows_a = rows_of(problem.delassus, c, problem.delassus.lever_a(c), -1),
+                 rows_b = rows_of(problem.delassus, c, problem.delassus.lever_b(c), 1);
+      Eigen::Matrix<double, Impulse::RowsAtCompileTime, 1> exact = rounded;
+      for (int k = 0; k < exact.size(); ++k) {
         const double sum = rows_a.row(k).dot(of_a) + rows_b.row(k).dot(of_b);
         const double terms = rows_a.row(k).cwiseAbs().dot(of_a.cwiseAbs()) +
                              rows_b.row(k).cwiseAbs().dot(of_b.cwiseAbs());

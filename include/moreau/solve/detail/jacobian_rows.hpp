@@ -27,5 +27,20 @@ MOREAU_INLINED inline Eigen::Matrix<double, S::dim, S::dofs> jacobian_rows(
   }
   return rows;
 }
+/// The same with the rows of the couple / R: row D + k is the torque R e_k, e_k the axes of rotation of the contact frame.
+/// @param radius R of the contact [m]
+template <class S>
+MOREAU_INLINED inline Eigen::Matrix<double, S::dofs, S::dofs> jacobian_rows(
+    const typename S::Matrix& frame, const typename S::Vector& lever, double radius, double sign) {
+  const Eigen::Matrix<double, S::dim, S::dofs> of_point = jacobian_rows<S>(frame, lever, sign);
+  const typename S::Inertia axes = S::angular_frame(frame);
+  Eigen::Matrix<double, S::dofs, S::dofs> rows;
+  for (int i = 0; i < S::dofs; ++i) {
+    for (int k = 0; k < S::dim; ++k) rows(k, i) = of_point(k, i);
+    for (int k = 0; k < S::angular_dim; ++k)
+      rows(S::dim + k, i) = i < S::dim ? 0 : sign * radius * double(axes(i - S::dim, k));
+  }
+  return rows;
+}
 
 }  // namespace moreau::detail

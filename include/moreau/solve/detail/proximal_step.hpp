@@ -16,18 +16,20 @@
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/solve/detail/block_factorization.hpp"
+#include "moreau/solve/detail/couple_response.hpp"
 #include "moreau/solve/detail/island_points.hpp"
 #include "moreau/solve/detail/sliding_face.hpp"
 
 namespace moreau::detail {
 
 /// The points, the centre, the lifts and the motion of an island, and the steps that change them. Keeps its memory.
-template <class SpaceT>
+/// @tparam Couples whether a contact has D + A rows
+template <class SpaceT, bool Couples = false>
 class ProximalStep {
  public:
-  using Points = IslandPoints<SpaceT>;
+  using Points = IslandPoints<SpaceT, Couples>;
   using S = typename Points::S;
-  using Impulse = typename SpaceT::Vector;
+  using Impulse = Eigen::Matrix<typename SpaceT::Scalar, Points::rows_of_contact, 1>;
   /// Rounding of impulses times their compliance, relative to the motion. Steps go on below the tolerance while the
   /// error falls by `polish`: errors that stay the same in every step add up.
   static constexpr double rounding = 1e-15, polish = 0.1;
@@ -41,6 +43,7 @@ class ProximalStep {
     lift_.resize(count);
     limit_.resize(count);
     closed_.resize(count);
+    if constexpr (Couples) roll_limit_.resize(count);
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
@@ -78,8 +81,8 @@ class ProximalStep {
       Vector& u = slip_[k];
       u = point.free + points_.velocity(point, y_);
       u[0] -= closed_[k];
-      for (int i = 0; i < S::dim; ++i) u[i] += point.compliance[i] * centre_[k][i];
-      lift_[k] = point.friction * slip_of(u);
+      for (int i = 0; i < rows; ++i) u[i] += point.compliance[i] * centre_[k][i];
+      lift_[k] = lift_of(point, u);
     }
   }
   /// Gives all contacts one compliance, epsilon times the least w, and no lift.
@@ -149,6 +152,13 @@ class ProximalStep {
     has_limits_ = true;
     detail::make_even<S>(points_.points(), std::span<const Vector>(slip_), sliding_scales(),
                          std::span<Vector>(centre_), std::span<double>(limit_));
+    if constexpr (Couples)
+      for (std::size_t k = 0; k < centre_.size(); ++k) {
+        const double limit = points_.points()[k].rolling * centre_[k][0],
+                     couple = couple_of<S>(centre_[k]);
+        roll_limit_[k] = limit;
+        for (int i = S::dim; i < rows && couple > limit; ++i) centre_[k][i] *= limit / couple;
+      }
     return largest;
   }
 
@@ -201,7 +211,7 @@ class ProximalStep {
     if (has_limits_) return std::max(largest, take_limits());
     for (std::size_t k = 0; k < lift_.size(); ++k) {
       const auto& point = points_.points()[k];
-      const double lift = point.friction * slip_of(slip_[k]), change = std::abs(lift - lift_[k]);
+      const double lift = lift_of(point, slip_[k]), change = std::abs(lift - lift_[k]);
       // A slip is that of both bodies.
       if (found_[k][0] > 0 && change > 0)
         largest =
@@ -258,9 +268,18 @@ class ProximalStep {
  private:
   using Vector = typename Points::Vector;
   using Coordinates = typename Points::Coordinates;
+  using Response = ContactResponse<Points::rows_of_contact>;
+  static constexpr int rows = Points::rows_of_contact;
   static constexpr std::size_t polish_bodies = 10;
 
   static double slip_of(const Vector& u) { return detail::slip_of<S>(u); }
+  /// sigma of a contact with this velocity [m/s].
+  static double lift_of(const typename Points::Point& point, const Vector& u) {
+    if constexpr (Couples)
+      return point.friction * slip_of(u) + point.rolling * couple_of<S>(u);
+    else
+      return point.friction * slip_of(u);
+  }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
@@ -303,6 +322,14 @@ class ProximalStep {
         largest = std::max({largest, relative(point.body_a, change * point.mobility_a),
                             relative(point.body_b, change * point.mobility_b)});
       limit_[k] = limit;
+      if constexpr (Couples) {
+        const double of_couple = point.rolling * found_[k][0],
+                     by = std::abs(of_couple - roll_limit_[k]);
+        if (couple_of<S>(found_[k]) >= (1 - 1e-9) * std::min(of_couple, roll_limit_[k]))
+          largest = std::max({largest, relative(point.body_a, by * point.mobility_a),
+                              relative(point.body_b, by * point.mobility_b)});
+        roll_limit_[k] = of_couple;
+      }
     }
     return largest;
   }
@@ -337,34 +364,53 @@ class ProximalStep {
       const double soft = epsilon * (common_ > 0 ? common_ : point.diagonal);
       const Vector caused = points_.velocity(point, y);
       Vector s, b;
-      for (int i = 0; i < S::dim; ++i) {
+      for (int i = 0; i < rows; ++i) {
         s[i] = point.compliance[i] + soft;
         b[i] = point.free[i] + caused[i] - soft * centre_[k][i];
       }
       b[0] -= closed_[k];
       slip_[k] = b;
       if (has_limits_) {
-        take(k, s, response_within<S>(limit_[k], s, b));
+        take(k, s, response_within_limits(k, s, b));
         continue;
       }
       b[0] += lift_[k];
-      if (is_open<S>(point.friction, b)) {
+      if (is_open_at(point, b)) {
         found_[k].setZero();  // stiffness_ is not used
         continue;
       }
-      take(k, s, response<S>(point.friction, s, b));
+      take(k, s, response_at(point, s, b));
     }
     double squares = 0;
     for (const Coordinates& f : f_) squares += f.squaredNorm();
     return std::sqrt(squares);
   }
 
+  static bool is_open_at(const typename Points::Point& point, const Vector& b) {
+    if constexpr (Couples)
+      return is_open<S>(point.friction, point.rolling, b);
+    else
+      return is_open<S>(point.friction, b);
+  }
+  static Response response_at(const typename Points::Point& point, const Vector& s,
+                              const Vector& b) {
+    if constexpr (Couples)
+      return couple_response<S>(point.friction, point.rolling, s, b);
+    else
+      return response<S>(point.friction, s, b);
+  }
+  Response response_within_limits(std::size_t k, const Vector& s, const Vector& b) const {
+    if constexpr (Couples)
+      return couple_response_within<S>(limit_[k], roll_limit_[k], s, b);
+    else
+      return response_within<S>(limit_[k], s, b);
+  }
   /// Takes the response of a point: its impulse moves f_, and the compliances s add to its slip.
-  void take(std::size_t k, const Vector& s, const ContactResponse<S>& answer) {
+  void take(std::size_t k, const Vector& s, const Response& answer) {
     found_[k] = answer.impulse;
     stiffness_[k] = answer.stiffness;
     Vector back;
-    for (int i = 0; i < S::dim; ++i) {
+    for (int i = 0; i < rows; ++i) {
       slip_[k][i] += s[i] * answer.impulse[i];
       back[i] = -answer.impulse[i];
     }
@@ -423,9 +469,9 @@ class ProximalStep {
   /// A J of a contact and one of its bodies.
   MOREAU_COMPILED_ONCE typename Points::Rows stiff(std::size_t k,
                                                    const typename Points::Rows& j) const {
-    typename Points::Rows rows = Points::Rows::Zero();
-    add_product(rows, stiffness_[k], j);
-    return rows;
+    typename Points::Rows stiff_rows = Points::Rows::Zero();
+    add_product(stiff_rows, stiffness_[k], j);
+    return stiff_rows;
   }
   /// Solves phi'' direction_ = -F at the motion of the last respond().
   bool newton_direction() {
@@ -459,9 +505,10 @@ class ProximalStep {
   bool has_limits_ = false;             // of friction, in place of lifts
   List<double> least_, scale_;          // see start() and find_scales(); one per body [m/s]
   List<double> limit_;                  // mu r_n [N s]
+  List<double> roll_limit_;             // eta r_n, with couples [N s]
   List<double> closed_;  // part of the opening that is left out, see even_faces() [m/s]
-  List<Eigen::Matrix<double, S::dim, S::dim>> stiffness_;  // A at the last motion
-  List<Coordinates> y_;                                    // of the centre
+  List<Eigen::Matrix<double, rows, rows>> stiffness_;  // A at the last motion
+  List<Coordinates> y_;                                // of the centre
   List<Coordinates> next_, trial_, f_, direction_;
   BlockFactorization<S::dofs> matrix_;
   Block block_;

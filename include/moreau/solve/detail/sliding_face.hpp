@@ -128,10 +128,10 @@ MOREAU_INLINED inline void make_even(std::span<const Point> points,
 /// @param s compliances in series [1/kg]
 /// @param b velocity without an impulse [m/s]
 template <class S>
-MOREAU_INLINED inline ContactResponse<S> response_within(
+MOREAU_INLINED inline ContactResponse<S::dim> response_within(
     double limit, const Eigen::Matrix<double, S::dim, 1>& s,
     const Eigen::Matrix<double, S::dim, 1>& b) {
-  ContactResponse<S> answer;
+  ContactResponse<S::dim> answer;
   auto& [r, stiffness] = answer;
   double square = 0;
   for (int i = 0; i < S::dim; ++i) r[i] = -b[i] / s[i];
