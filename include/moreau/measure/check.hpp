@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "moreau/measure/detail/check_bonds.hpp"
+#include "moreau/measure/detail/check_creep.hpp"
 #include "moreau/measure/detail/check_motion.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/measure/detail/check_units.hpp"
@@ -54,6 +55,8 @@ class SentencesOnce {
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
+///          - bodies at rest on each other, up to 200, whose velocities the direct method does not judge (a law with a solve() of its
+///            own, islands = false), and which can creep by more than 1 % of the grain size per second
 ///          - bonds: their forces are known to less than three digits (StepReport::bond_error); the last call of
 ///            bond_touching() made none, and there is none; their tension does not carry the weight of a bonded grain (kN)
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
@@ -82,6 +85,7 @@ template <class Simulation>
   detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
   detail::check_units(found, simulation, report.step);
   detail::check_motion(found, simulation, report);
+  detail::check_creep(found, simulation, report);
   if constexpr (requires { simulation.missed_gap(); }) detail::check_bonds(found, simulation);
   if (!is_first && detail::is_idle(simulation, report))
     found.say(

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The part of check() that looks at structures at rest which no direct method has judged: under a law with a solve() of its
+// own, and with ColouredOptions::islands = false. Small errors of many contacts then add up, and the structure creeps.
+//
+// The residual e is relative to the root of the sum of the squares of all impulses r, with W scaled to a mean diagonal of
+// w. So the velocities of all contacts that stick have errors of at most e w |r| together, as a 2-norm. A body that d
+// contacts, one above the other, connect to a fixed body moves with at most the sum of d of them: sqrt(d) e w |r|.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "moreau/core/twist.hpp"
+#include "moreau/measure/detail/check_report.hpp"
+#include "moreau/world/step_report.hpp"
+
+namespace moreau::detail {
+
+/// The longest way from a fixed body to a body that contacts connect to it, in contacts.
+/// @param bodies number of bodies
+/// @param pairs  of bodies in contact
+/// @param fixed  function: body -> whether it cannot move
+inline int longest_way(std::size_t bodies, const auto& pairs, const auto& fixed) {
+  std::vector<std::vector<std::uint32_t>> neighbours(bodies);
+  std::vector<std::uint32_t> front, next;
+  std::vector<unsigned char> reached(bodies, 0);
+  for (const auto& [a, b] : pairs) {
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  }
+  for (std::uint32_t i = 0; i < bodies; ++i)
+    if (fixed(i)) {
+      reached[i] = 1;
+      front.push_back(i);
+    }
+  int way = -1;
+  for (; !front.empty(); ++way) {
+    next.clear();
+    for (const std::uint32_t i : front)
+      for (const std::uint32_t k : neighbours[i])
+        if (reached[k] == 0) {
+          reached[k] = 1;
+          next.push_back(k);
+        }
+    front.swap(next);
+  }
+  return way;
+}
+
+/// Says how fast a structure at rest can creep by the residual, if that is more than a hundredth of the grain size in a
+/// second. Packings of more bodies than a small island has are not judged.
+template <class Simulation>
+[[gnu::cold]] void check_creep(Findings& found, const Simulation& simulation,
+                               const StepReport& report) {
+  using S = typename Simulation::S;
+  constexpr std::size_t most_bodies = 200;
+  constexpr double share = 0.01, second = 1;
+  const double size = double(simulation.grain_size());
+  if (report.solve.islands > 0 || !report.solve.converged || report.bonds > 0) return;
+  if (simulation.grain_count() > most_bodies || !(report.solve.residual > 0)) return;
+  const auto& bodies = simulation.bodies();
+  const auto& contacts = simulation.contacts();
+  double trace = 0, squares = 0;
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& point = contacts.points[c];
+    const double square = contacts.impulses[c].template cast<double>().squaredNorm();
+    if (square > 0) pairs.push_back({point.a, point.b});
+    squares += square;
+    const auto add = [&](std::size_t body, const typename S::Vector& lever) {
+      const auto root = bodies.mobility_root(body);
+      trace += double(root.linear.squaredNorm()) +
+               double((S::lever(lever) * root.angular).squaredNorm());
+    };
+    add(point.a, point.lever_a);
+    add(point.b, point.lever_b);
+  }
+  if (pairs.empty()) return;
+  const int way =
+      longest_way(bodies.size(), pairs, [&](std::size_t i) { return bodies.is_prescribed(i); });
+  const double mean = trace / double(S::dim * int(contacts.size()));
+  const double creep =
+      std::sqrt(double(std::max(way, 0))) * report.solve.residual * mean * std::sqrt(squares);
+  if (way < 2 || !(creep * second > share * size)) return;
+  // Bodies that are faster than they creep are not at rest.
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies.exists(i) && double(linear<S>(bodies.velocity[i]).norm()) > 30 * creep) return;
+  found.say(
+      "bodies stand on each other, % contacts high, and no direct method judges their velocities "
+      "under this law: with a "
+      "residual of % they can creep by % m per second, % times the grain size. Take a tolerance % "
+      "times smaller "
+      "(ColouredOptions::tolerance, and as many more max_sweeps), or a law that the direct method "
+      "solves: guide/solve-report.md",
+      {double(way), report.solve.residual, creep, creep / size,
+       std::ceil(creep * second / (share * size))});
+}
+
+}  // namespace moreau::detail
