@@ -8,6 +8,7 @@
 // | ActsWhereGapsClose | ActsWhereGapsClose | all pairs within the margin have contacts |
 // | is_coulomb | CoulombLaw, RollingCoulombLaw | no direct method for islands, no ProximalFallback, no gather_problem |
 // | friction() | FrictionLaw | no CoulombLaw; check() does not judge the friction |
+// | rolling() | RollingCoulombLaw | the same of laws with couples |
 // | restitution() | RestitutionLaw | Compliant<Law> takes e = 0 |
 // | variants, variant(k), variant_after(k, impulse) | StatefulLaw | one variant |
 // | has_static_friction(), variant_at_rest(k) | StaticFrictionLaw | variant_after() alone decides |

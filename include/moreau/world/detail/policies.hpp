@@ -28,6 +28,9 @@ struct NamesOf {
   static constexpr bool bridges = requires(Law & law) { law.is_bridged(std::size_t{}); };
   static constexpr bool bonds = requires(Law & law) { law.is_bonded(std::size_t{}); };
   static constexpr bool coulomb = requires { requires Law::is_coulomb; };
+  static constexpr bool rolling = requires(const Law law) {
+    { law.rolling() } -> std::convertible_to<double>;
+  };
   /// Variants of this law; a law that derives from one with variants inherits none.
   static constexpr bool variants = requires(Law & law, std::size_t k) {
     requires std::same_as<std::remove_cvref_t<decltype(law.variant(k))>, Law>;
@@ -55,8 +58,8 @@ requires(!SetValuedLaw<Law, S>) struct NamesOf<Law, S> {
   static constexpr bool attraction = false, range = false, springs = false, share = false,
                         bridges = false, bonds = false, variants = false, at_rest = false,
                         static_friction = false, friction = false, restitution = false,
-                        coulomb = false, lanes = false, maps_lanes = false, own_lanes = false,
-                        changing_lanes = false, changing_friction = false;
+                        coulomb = false, rolling = false, lanes = false, maps_lanes = false,
+                        own_lanes = false, changing_lanes = false, changing_friction = false;
 };
 
 /// Does not compile for policies that do not fit together.
@@ -100,6 +103,9 @@ struct Policies {
                 "StaticFrictionLaw; static_assert the concept to see what is missing");
   static_assert(!Has::coulomb || FrictionLaw<Law>,
                 "Simulation: Law has is_coulomb, but no friction() const that returns a number");
+  static_assert(!(Has::coulomb && Rolls<Law>) || Has::rolling,
+                "Simulation: Law has couples and is_coulomb, but no rolling() const that returns a "
+                "number, the coefficient of rolling resistance");
   static_assert(!Has::changing_friction, "Simulation: friction() of Law must be const");
   static_assert(!Has::restitution || RestitutionLaw<Law>,
                 "Simulation: restitution() of Law must be const and return a number");
