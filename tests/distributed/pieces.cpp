@@ -34,6 +34,16 @@ TEST_CASE("Each process writes its grains and contacts") {
   StepReport report;
   for (int k = 0; k < 200; ++k) report = packing.step(step);
   write_pieces(std::filesystem::path(folder) / "run", packing, step);
+  // Without a step the forces are those of the last one.
+  write_pieces(std::filesystem::path(folder) / "last", packing);
+  for (const char* part : {"_grains_", "_contacts_"}) {
+    const std::string end = part + std::to_string(rank()) + ".vtp";
+    CHECK(!content(folder + "/run" + end).empty());
+    CHECK(content(folder + "/last" + end) == content(folder + "/run" + end));
+  }
+  CHECK_THROWS_AS(write_pieces(std::filesystem::path(folder) / "run", packing, 1e3 * step),
+                  std::invalid_argument);
+  MPI_Barrier(MPI_COMM_WORLD);
   if (rank() == 0) {
     int grains = 0, contacts = 0;
     for (int other = 0; other < ranks(); ++other) {
@@ -49,6 +59,16 @@ TEST_CASE("Each process writes its grains and contacts") {
     std::filesystem::remove_all(folder);
   }
   CHECK_THROWS_AS(write_pieces("a&b", packing), std::invalid_argument);
+}
+
+TEST_CASE("Contacts of a simulation that has made no step need its length") {
+  const auto build = [] { return box_of_grains<Balls>(60); };
+  std::optional<DistributedSimulation<Balls>> packing;
+  packing.emplace(MPI_COMM_WORLD, on_first_rank<Balls>(build));
+  for (int k = 0; k < 200; ++k) packing->step(step);
+  const std::optional<Balls> whole = packing->gather();
+  packing.emplace(MPI_COMM_WORLD, whole ? *whole : empty_world<Balls>());
+  CHECK_THROWS_AS(write_pieces("none", *packing), std::invalid_argument);
 }
 
 TEST_CASE("If one process cannot write, all throw") {

@@ -42,6 +42,22 @@ TEST_CASE("To distribute and to gather changes nothing") {
   check_round_trip<SoftPolyhedra>(40);
 }
 
+TEST_CASE("A simulation that is gathered before its first step refuses deep overlaps, too") {
+  const auto build = [] {
+    Balls world = empty_world<Balls>();
+    const ShapeId shape = world.add_shape(Ball<>(size / 2));
+    for (const double x : {0.0, 1.5, 3.0, 4.5, 0.1})
+      world.add_grain(shape, Pose<Space<3>>({size * x, 0, 0}), 2700);
+    return world;
+  };
+  DistributedSimulation<Balls> packing(MPI_COMM_WORLD, on_first_rank<Balls>(build));
+  std::optional<Balls> whole = packing.gather();
+  if (!whole) return;
+  CHECK_THROWS_AS(whole->step(step), std::invalid_argument);
+  whole->allow_overlaps();
+  CHECK(whole->step(step).overlapping == 1);
+}
+
 TEST_CASE("A run goes on after a snapshot, over another number of processes") {
   using World = SoftPolyhedra;
   const auto build = [] { return box_of_grains<World>(60); };

@@ -188,7 +188,6 @@ void Redistribution<World>::update(Scalar step, double imbalance) {
 template <class World>
 void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   Parts parts(world_);
-  const bool placed = parts.assembly().any_placed();
   ++count_;
   cut_if_uneven(imbalance);
   shapes_.take(shape_ids_, parts.shapes());
@@ -204,8 +203,6 @@ void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   take_contacts(contacts);
   take_bonds();
   parts.finish();
-  // The next step looks for deep overlaps. The bodies have other numbers, so it looks at all of them.
-  if (placed) parts.assembly().note_all_placed();
   slack_ = slack;
 }
 

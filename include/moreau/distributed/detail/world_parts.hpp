@@ -151,12 +151,15 @@ struct WorldParts {
   }
 
   void forget_pairs() { StateAccess::forget_pairs(detector()); }
-  /// Computes what depends on the members, after they were set.
+  /// Computes what depends on the members, after they were set. If bodies were placed since the last step, the next one
+  /// looks for deep overlaps of all of them, because they have other numbers.
   void finish() {
+    const bool placed = assembly().any_placed();
     forget_pairs();
     shifts().assign(bodies().size(), S::Twist::Zero());
     assembly().forget_placed();
     SerializationAccess::deserialized(assembly());
+    if (placed) assembly().note_all_placed();
     if constexpr (has_springs) {
       springs().forget_velocities();  // the bodies have other numbers
       SerializationAccess::deserialized(springs());
