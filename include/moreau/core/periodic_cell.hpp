@@ -96,13 +96,19 @@ class PeriodicCell {
   /// Volume of a lattice [m^3], in the plane its area [m^2].
   Scalar volume() const { return vectors().determinant(); }
 
-  /// Deforms a lattice: its corner stays where it is, its vectors H become map H.
-  /// @param map [-], with a positive determinant
-  void deform(const Matrix& map) { assign(matrix_product(map, vectors_)); }
+  /// Deforms a lattice: its corner stays where it is, its vectors H become H + increment H. Many small increments add up
+  /// without loss.
+  /// @param increment [-]; I + increment has a positive determinant
+  void deform(const Matrix& increment) {
+    Matrix vectors = vectors_, lost = lost_;
+    grow(vectors, lost, increment);
+    assign(vectors);
+    lost_ = lost;
+  }
   /// The place of a point that moves with the deforming lattice, world axes [m].
-  /// @param map as in deform()
-  Value<Vector> deformed(const Matrix& map, const VectorArgument<S>& x) const {
-    return lower_ + product(map, Vector(x - lower_));
+  /// @param increment as in deform()
+  Value<Vector> deformed(const Matrix& increment, const VectorArgument<S>& x) const {
+    return x + product(increment, Vector(x - lower_));
   }
   /// Replaces the vectors of a lattice by short ones of the same lattice, as the head of this file says.
   /// @returns whether the vectors have changed
@@ -263,9 +269,13 @@ class PeriodicCell {
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(lower_, length_, is_lattice_, vectors_); }
+  auto serialized_members() { return std::tie(lower_, length_, is_lattice_, vectors_, lost_); }
   void deserialized() {
-    if (is_lattice_) set_vectors(Matrix(vectors_), Vector(lower_), "PeriodicCell");
+    if (!is_lattice_) return;
+    const Matrix lost = lost_;
+    require(all_finite(lost), "PeriodicCell", "lost", lost, "must be finite");
+    set_vectors(Matrix(vectors_), Vector(lower_), "PeriodicCell");
+    lost_ = lost;
   }
 
   /// Replaces a vector by its sum with others, each once or minus once, if that is shorter.
@@ -285,6 +295,7 @@ class PeriodicCell {
   }
   void assign(const Matrix& vectors) {
     vectors_ = vectors;
+    lost_.setZero();
     inverse_ = vectors.inverse();
     for (int k = 0; k < S::dim; ++k) length_[k] = Vector(vectors.col(k)).norm();
   }
@@ -305,6 +316,7 @@ class PeriodicCell {
   Vector lower_ = Vector::Zero(), length_ = Vector::Zero();
   bool is_lattice_ = false;
   Matrix vectors_ = Matrix::Zero(), inverse_ = Matrix::Zero();  // H and H^-1 of a lattice
+  Matrix lost_ = Matrix::Zero();                                // of H, see grow()
 };
 
 }  // namespace moreau

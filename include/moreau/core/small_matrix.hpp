@@ -14,6 +14,7 @@
 #include <limits>
 #include <utility>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/compiler.hpp"
 
 namespace moreau {
@@ -112,6 +113,23 @@ Eigen::Matrix<T, N, N> identity_minus(std::type_identity_t<T> factor,
   for (int k = 0; k < N * N; ++k)
     difference.data()[k] = (k % (N + 1) == 0 ? T(1) : T(0)) - factor * m.data()[k];
   return difference;
+}
+/// M becomes (I + increment) M. In single precision the sum would be rounded in the same direction in every step: what it
+/// loses is added in the next one (W. Kahan, Commun. ACM 8 (1965) 40).
+/// @param lost in, out: zero at first
+template <class T, int N>
+MOREAU_COMPILED_ONCE void grow(Eigen::Matrix<T, N, N>& m, Eigen::Matrix<T, N, N>& lost,
+                               const Eigen::Matrix<T, N, N>& increment) {
+  for (int j = 0; j < N; ++j) {
+    const Eigen::Matrix<T, N, 1> column = m.col(j);
+    for (int i = 0; i < N; ++i) {
+      const T before = column[i];
+      T change = -lost(i, j);
+      for (int k = 0; k < N; ++k) change += increment(i, k) * column[k];
+      m(i, j) = before + change;
+      lost(i, j) = (m(i, j) - before) - change;
+    }
+  }
 }
 /// The largest sum of the absolute values of a row: the norm of a matrix for vectors whose norm is the largest entry.
 template <class T, int N>

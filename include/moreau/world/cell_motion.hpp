@@ -75,15 +75,22 @@ class CellMotion {
   /// @param theta    part of the step that comes after detection [-]
   void begin(Bodies<S>& bodies, auto& detector, Scalar step, Scalar theta, const Team& team) {
     before_ = deformation_;
+    before_lost_ = lost_;
     if (!rate_.isZero(0)) {
-      deform(bodies, detector, inverse_of(identity_minus((1 - theta) * step, rate_)), team);
+      // (I - A)^-1 - I = (I - A)^-1 A, A = (1 - theta) h L: without the difference of nearly equal numbers.
+      Matrix increment = strain_in((1 - theta) * step), lost = Matrix::Zero();
+      Matrix by = inverse_of(identity_minus(Scalar(1), increment));
+      for (int k = 0; k < S::dim; ++k) by(k, k) -= 1;
+      grow(increment, lost, by);
+      deform(bodies, detector, increment, team);
     }
     volume_ = detector.cell().volume();
   }
   /// Undoes begin(), but for the positions of the bodies; the vectors of the cell get back their values to rounding.
   MOREAU_COLD void undo_begin(auto& detector, Scalar step, Scalar theta) {
     deformation_ = before_;
-    if (!rate_.isZero(0)) detector.deform_cell(identity_minus((1 - theta) * step, rate_));
+    lost_ = before_lost_;
+    if (!rate_.isZero(0)) detector.deform_cell(strain_in((theta - 1) * step));
     volume_ = detector.cell().volume();
   }
   /// For Simulation, after the contact problem: stores rate and stress, and deforms the cell.
@@ -93,33 +100,44 @@ class CellMotion {
            const Matrix& moment, const Team& team) {
     stress_ = moment / volume_;
     if (is_active()) rate_ = rate;
-    if (!rate_.isZero(0)) deform(bodies, detector, identity_minus(-theta * step, rate_), team);
+    if (!rate_.isZero(0)) deform(bodies, detector, strain_in(theta * step), team);
   }
 
  private:
   friend struct SerializationAccess;
-  auto serialized_members() { return std::tie(control_, rate_, stress_, deformation_, volume_); }
+  auto serialized_members() {
+    return std::tie(control_, rate_, stress_, deformation_, lost_, volume_);
+  }
   void deserialized() {
     control_.check("CellMotion");
-    require(all_finite(rate_) && all_finite(stress_) && all_finite(deformation_), "CellMotion",
-            "rate", rate_, "must be finite, and stress and deformation");
+    require(
+        all_finite(rate_) && all_finite(stress_) && all_finite(deformation_) && all_finite(lost_),
+        "CellMotion", "rate", rate_, "must be finite, and stress and deformation");
   }
 
-  MOREAU_COMPILED_ONCE static void move_with_cell(Pose<S>& pose, const PeriodicCell<S>& cell,
-                                                  const Matrix& map) {
-    pose.position = cell.deformed(map, pose.position);
+  /// That of the rate in a time [s].
+  MOREAU_INLINED Matrix strain_in(Scalar time) const {
+    Matrix product;
+    for (int k = 0; k < product.size(); ++k) product(k) = time * rate_(k);
+    return product;
+  }
+  MOREAU_INLINED static void move_with_cell(Pose<S>& pose, const PeriodicCell<S>& cell,
+                                            const Matrix& increment) {
+    pose.position = cell.deformed(increment, pose.position);
   }
   /// Deforms the cell, and moves the bodies with it.
-  void deform(Bodies<S>& bodies, auto& detector, const Matrix& map, const Team& team) {
-    team.share_each(bodies.size(), 512,
-                    [&](std::size_t i) { move_with_cell(bodies.pose[i], detector.cell(), map); });
-    detector.deform_cell(map);
-    deformation_ = matrix_product(map, Matrix(deformation_));
+  void deform(Bodies<S>& bodies, auto& detector, const Matrix& increment, const Team& team) {
+    team.share_each(bodies.size(), 512, [&](std::size_t i) {
+      move_with_cell(bodies.pose[i], detector.cell(), increment);
+    });
+    detector.deform_cell(increment);
+    grow(deformation_, lost_, increment);
   }
 
   CellControl<S> control_;
   Matrix rate_ = Matrix::Zero(), stress_ = Matrix::Zero(), deformation_ = Matrix::Identity();
-  Matrix before_ = Matrix::Identity();  // deformation_ before the step
+  Matrix lost_ = Matrix::Zero();  // of deformation_, see grow()
+  Matrix before_ = Matrix::Identity(), before_lost_ = Matrix::Zero();  // before the step
   Scalar volume_ = 0;
 };
 

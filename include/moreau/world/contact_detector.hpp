@@ -90,8 +90,8 @@ class ContactDetector {
     near_.set_cell(cell);
   }
   const PeriodicCell<S>& cell() const { return near_.cell(); }  ///< open unless set
-  /// Deforms a cell that is a lattice. The poses must be deformed by the same map.
-  void deform_cell(const typename S::Matrix& map) { near_.deform_cell(map); }
+  /// Deforms a cell that is a lattice. The poses must be deformed by the same increment.
+  void deform_cell(const typename S::Matrix& increment) { near_.deform_cell(increment); }
   /// Half the least width of a periodic cell with a grain of this shape [m].
   Scalar room_of(const ShapeT& shape, const DetectionLengths<Scalar>& lengths) const {
     return std::max(widest_, width(shape)) + around(lengths);

@@ -54,15 +54,16 @@ class NearPairs {
     cell_ = cell;
     shifts_.clear();
     deformed_.setIdentity();
+    deformed_lost_.setZero();
     stale_ = true;
   }
-  /// Deforms a cell that is a lattice. The poses must be deformed by the same map.
-  void deform_cell(const typename S::Matrix& map) {
+  /// Deforms a cell that is a lattice. The poses must be deformed by the same increment.
+  void deform_cell(const typename S::Matrix& increment) {
     cells_.resize(shifts_.size());
     for (std::size_t p = 0; p < shifts_.size(); ++p) cells_[p] = cell_.cells(shifts_[p]);
-    cell_.deform(map);
+    cell_.deform(increment);
     for (std::size_t p = 0; p < shifts_.size(); ++p) shifts_[p] = cell_.shift(cells_[p]);
-    deformed_ = map * deformed_;
+    grow(deformed_, deformed_lost_, increment);
   }
   /// Lists only pairs for which keeps(a, b) of the indices of their bodies is true, from the next find() on.
   void set_filter(const auto& keeps) { filter_.set(keeps), stale_ = true; }
@@ -130,7 +131,8 @@ class NearPairs {
   /// The members that a file contains, see core/serialize.hpp.
   /// @param setting a member of the detector, which the file contains after the cell
   auto serialized_members_with(auto& setting) {
-    return std::tie(cell_, setting, stale_, fat_, pairs_, shifts_, caches_, deformed_);
+    return std::tie(cell_, setting, stale_, fat_, pairs_, shifts_, caches_, deformed_,
+                    deformed_lost_);
   }
 
  private:
@@ -146,6 +148,7 @@ class NearPairs {
     cell_.reduce();
     cell_.require_room(width, "Simulation::step");
     deformed_.setIdentity();
+    deformed_lost_.setZero();
   }
 
   PeriodicCell<S> cell_;
@@ -156,8 +159,9 @@ class NearPairs {
   PeriodicImages<S> images_;
   std::vector<IndexPair> pairs_, old_pairs_;
   std::vector<Vector> shifts_;
-  std::vector<Vector> cells_;                            // the same in cells, in deform_cell()
-  typename S::Matrix deformed_ = S::Matrix::Identity();  // map of the cell since the list was made
+  std::vector<Vector> cells_;                             // the same in cells, in deform_cell()
+  typename S::Matrix deformed_ = S::Matrix::Identity();   // map of the cell since the list was made
+  typename S::Matrix deformed_lost_ = S::Matrix::Zero();  // of it, see grow()
   PairCaches<ShapeT> caches_;
   bool stale_ = true;
 };
@@ -206,11 +210,12 @@ bool NearPairs<ShapeT, BroadPhaseT>::holds_in_lattice(const Grains& grains,
                                                       std::span<const Aabb<S>> boxes, Scalar reach,
                                                       Scalar widest) const {
   const typename S::Matrix inverse = inverse_of(deformed_);
-  const Scalar most = largest_row_sum(identity_minus(Scalar(1), inverse));
+  const typename S::Matrix undone = -identity_minus(Scalar(1), inverse);
+  const Scalar most = largest_row_sum(undone);
   const Scalar by = reach + most * (widest + 2 * reach) / 2;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const Vector center = (boxes[k].lower + boxes[k].upper) / 2;
-    const Vector back = cell_.deformed(inverse, center) - center;
+    const Vector back = cell_.deformed(undone, center) - center;
     if (!fat_[k].contains(boxes[k].moved(back).inflated(by)) ||
         !caches_.holds(k, grains[k].placed, by, back))
       return false;
