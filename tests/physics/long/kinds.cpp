@@ -10,7 +10,6 @@
 #include <numbers>
 #include <random>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "rotation_between.hpp"
@@ -151,77 +150,6 @@ TEST_CASE_TEMPLATE("kinds: blocks that slide in a row between two walls do not t
                       .epsilon(bound<ShapeT>(1e-4, 1e-3)));
           }
         }
-}
-
-// The same with random sizes, widths, masses, directions, steps and orders of the bodies. The faces carry the moments of the
-// friction at the walls as long as friction * length <= 4 * height.
-TEST_CASE_TEMPLATE("kinds: random rows of blocks that slide between two walls do not turn", ShapeT,
-                   Polyhedron<>, Polygon<>) {
-  using S = SpaceOf<ShapeT>;
-  using T = typename S::Scalar;
-  using Vector = typename S::Vector;
-  int unsolved_rows = 0;
-  for (unsigned seed = 1000; seed < 1080; ++seed) {
-    std::mt19937 random(seed * 7919);
-    const auto number = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
-    const auto factor = [&](double from, double to) {
-      return from * std::pow(to / from, number());
-    };
-    const int count = 1 + int(number() * 6);
-    const double size = factor(0.003, 3), mass = factor(1e-3, 1e3);
-    const double h = std::min(factor(1e-4, 1.0 / 60), std::sqrt(0.3 * size / weight));
-    const double share = number() < 0.3 ? 0.99 : 0.3 + 0.68 * number();
-    const typename S::Rotation tilt = tilt_to<S>(random, seed % 2 == 0);
-    const Vector up = tilt * Vector::Unit(S::dim - 1), across = tilt * Vector::UnitX();
-    std::vector<double> widths;
-    double length = 0;
-    for (int k = 0; k < count; ++k)
-      length += widths.emplace_back(size * (seed % 3 == 0 ? 1 : 0.4 + 0.6 * number()));
-    const double friction = std::min(0.2 + 0.6 * number(), 3.6 * size / length);
-    World<ShapeT> world = world_of<ShapeT>(size, friction, up);
-    std::vector<Vector> at;
-    std::vector<std::size_t> order;
-    double end = 0;
-    for (const double width : widths) {
-      order.push_back(at.size());
-      at.push_back(T(end + width / 2) * across);
-      end += width;
-    }
-    std::shuffle(order.begin(), order.end(), random);
-    const auto put_walls = [&] {
-      return std::pair{world.add_wall(across, Vector::Zero()),
-                       world.add_wall(-across, Vector(T(length) * across))};
-    };
-    std::pair<BodyId, BodyId> walls;
-    const bool walls_first = seed % 5 < 2, is_left = seed % 4 < 2;
-    if (walls_first) walls = put_walls();
-    double load = 0;
-    for (const std::size_t k : order) {
-      Vector half = Vector::Constant(T(size / 2));
-      half[0] = T(widths[k] / 2);
-      const auto grain =
-          world.add_grain(world.add_shape(scenes::cuboid<ShapeT>(half)), {at[k], tilt}, T(1000));
-      load += double(world.bodies().grain_mass[grain.index()]) * weight;
-    }
-    if (!walls_first) walls = put_walls();
-    const auto wall = is_left ? walls.first : walls.second;
-    world.set_wall_mass(wall, T(mass * load / (weight * count)));
-    world.set_force(wall, T((is_left ? 1 : -1) * share * load / (2 * friction)) * across);
-    const int steps = rounds(std::min(1500, int(0.3 / h)));
-    int unsolved = 0;
-    for (int k = 0; k < steps; ++k) unsolved += !world.step(T(h)).solve.converged;
-    CAPTURE(seed);
-    unsolved_rows += unsolved > 0;
-    if (unsolved > 0) continue;
-    for (const auto grain : world.grains()) {
-      CHECK(
-          double((world.pose(grain).rotation.toRotationMatrix() - tilt.toRotationMatrix()).norm()) <
-          bound<ShapeT>(1e-4, 1e-3));
-      CHECK(-double(world.velocity(grain).dot(up)) ==
-            doctest::Approx(weight * (1 - share) * steps * h).epsilon(bound<ShapeT>(1e-4, 1e-3)));
-    }
-  }
-  CHECK(unsolved_rows <= (in_space<ShapeT> ? 0 : 10));
 }
 
 // Single precision without friction: a light block under a heavy one is driven out within seconds (limits.md).
