@@ -37,8 +37,7 @@
 // size. Open gaps are part of b and overlaps are not, so that in general no motion of the bodies closes all gaps. Each
 // proximal step would then change the pressure by the remaining velocity over s, the same in every step: the steps do
 // not converge, or end with the load on few points. Where faces slide, the part of such a velocity up to the tolerance
-// on the velocities of the bodies is therefore left out of b, and counts as an error of the velocities. Of a face with
-// larger gaps that part is chosen so that the rest is the same at all of its points, which a motion without rotation closes.
+// on the velocities of the bodies is therefore left out of b, and counts as an error of the velocities.
 //
 // With couples (law/rolling_resistance.hpp) the rows of a contact are the impulse and the couple / R, the cone has a second disc,
 // and the lift is sigma = mu |u_t| + eta |w|: solve/detail/couple_response.hpp. All the rest is the same.

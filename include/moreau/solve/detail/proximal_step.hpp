@@ -137,7 +137,16 @@ class ProximalStep {
   /// @param tolerance on the error of velocities, relative to find_scales() [-]
   /// @returns the largest velocity that is left out, relative to find_scales(), at most the tolerance [-]
   MOREAU_INLINED double even_faces(double tolerance) {
-    const double largest = close_gaps(tolerance);
+    double largest = 0;
+    for (std::size_t k = 0; k < closed_.size(); ++k) {
+      const auto& point = points_.points()[k];
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t body : {point.body_a, point.body_b})
+        if (body != Points::none) least = std::min(least, scale_[body]);
+      const double share = least > 0 ? std::min(tolerance, point.opening / least) : 0;
+      closed_[k] = share * least;
+      largest = std::max(largest, share);
+    }
     first_lifts();
     make_common();
     has_limits_ = true;
@@ -270,30 +279,6 @@ class ProximalStep {
       return point.friction * slip_of(u) + point.rolling * couple_of<S>(u);
     else
       return point.friction * slip_of(u);
-  }
-  /// Sets closed_. What remains of the openings of a face is the same for all of its points, as far as the tolerance
-  /// permits: bodies without rotation can then close it.
-  /// @returns as even_faces()
-  MOREAU_INLINED double close_gaps(double tolerance) {
-    const auto points = points_.points();
-    double largest = 0;
-    for (std::size_t first = 0, last; first < points.size(); first = last) {
-      double least = std::numeric_limits<double>::infinity(), nearest = least;
-      for (const std::uint32_t body : {points[first].body_a, points[first].body_b})
-        if (body != Points::none) least = std::min(least, scale_[body]);
-      for (last = first; last < points.size() && points[last].face == points[first].face; ++last)
-        nearest = std::min(nearest, points[last].opening);
-      const double most = tolerance * least;
-      double farthest = nearest;  // of the points that the tolerance can bring to the nearest one
-      for (std::size_t k = first; k < last; ++k)
-        if (points[k].opening <= nearest + most) farthest = std::max(farthest, points[k].opening);
-      const double rest = std::max(0.0, farthest - most);
-      for (std::size_t k = first; k < last; ++k) {
-        closed_[k] = std::min(most, points[k].opening - rest);
-        if (closed_[k] > 0) largest = std::max(largest, std::min(tolerance, closed_[k] / least));
-      }
-    }
-    return largest;
   }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
