@@ -68,7 +68,9 @@ template <class Simulation>
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& point = contacts.points[c];
-    const double square = contacts.impulses[c].template cast<double>().squaredNorm();
+    // Without the couple, which has another unit.
+    const double square =
+        contacts.impulses[c].template head<S::dim>().template cast<double>().squaredNorm();
     if (square > 0) pairs.push_back({point.a, point.b});
     squares += square;
     const auto add = [&](std::size_t body, const typename S::Vector& lever) {
