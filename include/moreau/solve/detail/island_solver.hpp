@@ -4,20 +4,18 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
-#include <type_traits>
 
 #include "moreau/contact/contact_islands.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/solve/contact_problem.hpp"
-#include "moreau/solve/detail/jacobian_rows.hpp"
+#include "moreau/solve/detail/island_contact.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/solve_report.hpp"
 
@@ -342,61 +340,9 @@ class IslandSolver {
   MOREAU_COMPILED_ONCE void take(const Problem& problem, std::size_t island) {
     newton_.assign(
         problem.delassus, islands_->contacts(island),
-        [&](std::size_t c) { return free_velocity(problem, c); },
-        [&](std::size_t c) { return opening(problem, c); },
-        [&](std::size_t c) { return coefficients(problem.law(c)); });
-  }
-  /// Those of friction and of rolling resistance [-].
-  static std::array<double, 2> coefficients(const Law& law) {
-    if constexpr (couples)
-      return {double(law.friction()), double(law.rolling())};
-    else
-      return {double(law.friction()), 0};
-  }
-  /// J of a contact for one of its bodies, see jacobian_rows().
-  static auto rows_of(const Operator& op, std::size_t c,
-                      const typename Operator::Space::Vector& lever, double sign) {
-    if constexpr (couples)
-      return jacobian_rows<typename Operator::Space>(op.frame(c), lever, double(op.radius(c)),
-                                                     sign);
-    else
-      return jacobian_rows<typename Operator::Space>(op.frame(c), lever, sign);
-  }
-  /// b of a contact [m/s]. In single precision b has the rounding of the velocities of the bodies. Two points of a face
-  /// would then have to close at velocities that no motion of the bodies has, and impulses become as large as this
-  /// rounding over the compliance of a step. In double precision the velocities of the bodies agree.
-  static Eigen::Matrix<double, Impulse::RowsAtCompileTime, 1> free_velocity(const Problem& problem,
-                                                                            std::size_t c) {
-    const auto rounded = problem.delassus.free_velocity(c).template cast<double>().eval();
-    if constexpr (std::is_same_v<typename Operator::Scalar, float>) {
-      if (problem.free.empty() || !rounded.allFinite()) return rounded;
-      const auto [a, b] = problem.delassus.bodies(c);
-      const auto of_a = problem.free[a].template cast<double>().eval(),
-                 of_b = problem.free[b].template cast<double>().eval();
-      const auto rows_a = rows_of(problem.delassus, c, problem.delassus.lever_a(c), -1),
-                 rows_b = rows_of(problem.delassus, c, problem.delassus.lever_b(c), 1);
-      Eigen::Matrix<double, Impulse::RowsAtCompileTime, 1> exact = rounded;
-      for (int k = 0; k < exact.size(); ++k) {
-        const double sum = rows_a.row(k).dot(of_a) + rows_b.row(k).dot(of_b);
-        const double terms = rows_a.row(k).cwiseAbs().dot(of_a.cwiseAbs()) +
-                             rows_b.row(k).cwiseAbs().dot(of_b.cwiseAbs());
-        // A smaller offset of the law is below the rounding of the sum.
-        constexpr double several = 4 * double(std::numeric_limits<float>::epsilon());
-        if (std::abs(rounded[k] - sum) <= several * terms) exact[k] = sum;
-      }
-      return exact;
-    } else {
-      return rounded;
-    }
-  }
-  /// Part of free_velocity() that an open gap adds [m/s].
-  static double opening(const Problem& problem, std::size_t c) {
-    if (problem.gap_velocity.empty() || !(problem.gap_velocity[c] > 0)) return 0;
-    if constexpr (std::is_same_v<typename Operator::Scalar, float>) {
-      // Without the gap.
-      if (free_velocity(problem, c)[0] != double(problem.delassus.free_velocity(c)[0])) return 0;
-    }
-    return double(problem.gap_velocity[c]);
+        [&](std::size_t c) { return exact_free_velocity(problem, c); },
+        [&](std::size_t c) { return opening_velocity(problem, c); },
+        [&](std::size_t c) { return friction_and_rolling(problem.law(c)); });
   }
   /// @returns whether it has succeeded
   MOREAU_INLINED bool solve_directly(Small& one, Impulses impulses, double epsilon, int steps,

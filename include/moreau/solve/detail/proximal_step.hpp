@@ -18,6 +18,8 @@
 #include "moreau/solve/detail/block_factorization.hpp"
 #include "moreau/solve/detail/couple_response.hpp"
 #include "moreau/solve/detail/island_points.hpp"
+#include "moreau/solve/detail/island_response.hpp"
+#include "moreau/solve/detail/island_scales.hpp"
 #include "moreau/solve/detail/sliding_face.hpp"
 
 namespace moreau::detail {
@@ -47,8 +49,7 @@ class ProximalStep {
     stiffness_.resize(count);
     for (auto* impulses : {&centre_, &found_, &slip_}) impulses->resize(count);
     for (auto* motion : {&y_, &next_, &trial_, &f_, &direction_}) motion->resize(points_.bodies());
-    least_.resize(points_.bodies());
-    scale_.resize(points_.bodies());
+    scales_.make_room(points_.bodies());
   }
   /// Finds the order of the factorization.
   /// @returns its cost, in products of two blocks
@@ -59,10 +60,10 @@ class ProximalStep {
 
   /// Moves to impulses, with the lifts of their motion. The compliance of each contact is epsilon w.
   /// @param impulses [N s]; empty: none
-  /// @param least_of function: body of the problem -> velocity that its errors are relative to at least, see find_scales()
-  ///                 [m/s]
+  /// @param least_of function: body of the problem -> velocity that its errors are relative to at least, see
+  ///                 IslandScales::find() [m/s]
   void start(std::span<const Impulse> impulses, const auto& least_of) {
-    for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = least_of(points_.body(i));
+    scales_.set_least(points_, least_of);
     common_ = 0;
     has_limits_ = false;
     std::fill(closed_.begin(), closed_.end(), 0);
@@ -82,7 +83,7 @@ class ProximalStep {
       u = point.free + points_.velocity(point, y_);
       u[0] -= closed_[k];
       for (int i = 0; i < rows; ++i) u[i] += point.compliance[i] * centre_[k][i];
-      lift_[k] = lift_of(point, u);
+      lift_[k] = Law::lift(point, u);
     }
   }
   /// Gives all contacts one compliance, epsilon times the least w, and no lift.
@@ -109,7 +110,7 @@ class ProximalStep {
   MOREAU_INLINED double defect() {
     respond(1, y_);
     find_scales(found_, y_);
-    const double defect = relative(f_);
+    const double defect = scales_.relative(points_, f_);
     return std::isfinite(defect) ? defect : 1;
   }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
@@ -120,7 +121,7 @@ class ProximalStep {
       if (!(centre_[k][0] > 0)) continue;
       const auto& point = points_.points()[k];
       const Vector u = point.free + points_.velocity(point, y_);
-      fastest = std::max(fastest, slip_of(u));
+      fastest = std::max(fastest, slip_of<S>(u));
     }
     const double motion = fastest_body();
     return motion > 0 ? fastest / motion : 0;
@@ -142,7 +143,7 @@ class ProximalStep {
       const auto& point = points_.points()[k];
       double least = std::numeric_limits<double>::infinity();
       for (const std::uint32_t body : {point.body_a, point.body_b})
-        if (body != Points::none) least = std::min(least, scale_[body]);
+        if (body != Points::none) least = std::min(least, scales_.of(body));
       const double share = least > 0 ? std::min(tolerance, point.opening / least) : 0;
       closed_[k] = share * least;
       largest = std::max(largest, share);
@@ -164,7 +165,8 @@ class ProximalStep {
 
   /// Calls take(body of the problem, velocity that its errors are relative to [m/s]).
   void take_scales(const auto& take) const {
-    for (std::size_t i = 0; i < scale_.size(); ++i) take(points_.body(i), scale_[i]);
+    const std::span<const double> all = scales_.all();
+    for (std::size_t i = 0; i < all.size(); ++i) take(points_.body(i), all[i]);
   }
   /// Counts the steps of Newton's method from zero.
   void begin() { steps_ = 0; }
@@ -181,7 +183,7 @@ class ProximalStep {
     for (;;) {
       if (!std::isfinite(norm)) return false;
       find_scales(found_, next_);
-      const double left = relative(f_), exact = rounding / epsilon;
+      const double left = scales_.relative(points_, f_), exact = rounding / epsilon;
       const double aim = std::max(share * tolerance, exact);
       const bool solved = !(left > aim);
       // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
@@ -207,15 +209,15 @@ class ProximalStep {
   MOREAU_INLINED double take_lifts() {
     find_scales(found_, next_);
     for (std::size_t i = 0; i < y_.size(); ++i) f_[i] = next_[i] - y_[i];
-    double largest = relative(f_);
+    double largest = scales_.relative(points_, f_);
     if (has_limits_) return std::max(largest, take_limits());
     for (std::size_t k = 0; k < lift_.size(); ++k) {
       const auto& point = points_.points()[k];
-      const double lift = lift_of(point, slip_[k]), change = std::abs(lift - lift_[k]);
+      const double lift = Law::lift(point, slip_[k]), change = std::abs(lift - lift_[k]);
       // A slip is that of both bodies.
       if (found_[k][0] > 0 && change > 0)
-        largest =
-            std::max(largest, change / std::max(scale_of(point.body_a), scale_of(point.body_b)));
+        largest = std::max(largest,
+                           change / std::max(scales_.of(point.body_a), scales_.of(point.body_b)));
       lift_[k] = lift;
     }
     return largest;
@@ -245,8 +247,8 @@ class ProximalStep {
         change = std::max(change, direction_[i].norm() * points_.speed(i));
       }
       respond(firm, next_);
-      const double motion = largest(next_);
-      if (!(largest(f_) <= several * rounding / firm * motion)) return;
+      const double motion = fastest_in(points_, next_);
+      if (!(fastest_in(points_, f_) <= several * rounding / firm * motion)) return;
       accept();
       if (change <= rounding * motion) return;
     }
@@ -268,46 +270,22 @@ class ProximalStep {
  private:
   using Vector = typename Points::Vector;
   using Coordinates = typename Points::Coordinates;
-  using Response = ContactResponse<Points::rows_of_contact>;
+  using Law = IslandResponse<SpaceT, Couples>;
+  using Response = typename Law::Response;
   static constexpr int rows = Points::rows_of_contact;
   static constexpr std::size_t polish_bodies = 10;
 
-  static double slip_of(const Vector& u) { return detail::slip_of<S>(u); }
-  /// sigma of a contact with this velocity [m/s].
-  static double lift_of(const typename Points::Point& point, const Vector& u) {
-    if constexpr (Couples)
-      return point.friction * slip_of(u) + point.rolling * couple_of<S>(u);
-    else
-      return point.friction * slip_of(u);
-  }
   void move_to_centre() {
     std::fill(y_.begin(), y_.end(), Coordinates::Zero());
     for (std::size_t k = 0; k < centre_.size(); ++k)
       points_.push(points_.points()[k], centre_[k], y_);
   }
-  /// Largest velocity of a body in a motion [m/s].
-  double largest(std::span<const Coordinates> motion) const {
-    double largest = 0;
-    for (std::size_t i = 0; i < motion.size(); ++i)
-      largest = std::max(largest, motion[i].norm() * points_.speed(i));
-    return largest;
-  }
-  /// Sets the velocity that the errors of each body are relative to: the sum of the velocities that its contacts give to it,
-  /// at most the largest velocity of a body in the motion of the centre or in another one, at least that of start(). A
-  /// light body can be much faster than its neighbours, and impulses that bear a heavy one would each move it much faster
-  /// than all of them together.
+  /// Sets the velocities that errors are relative to, see IslandScales::find(): at most the largest velocity of a body in
+  /// the motion of the centre or in another one.
   /// @param impulses of the contacts, or those of the centre where these are larger [N s]
   void find_scales(std::span<const Vector> impulses, std::span<const Coordinates> other) {
-    std::fill(scale_.begin(), scale_.end(), 0);
-    for (std::size_t k = 0; k < impulses.size(); ++k) {
-      const auto& point = points_.points()[k];
-      const double push = std::max(impulses[k].norm(), centre_[k].norm());
-      if (point.body_a != Points::none) scale_[point.body_a] += push * point.mobility_a;
-      if (point.body_b != Points::none) scale_[point.body_b] += push * point.mobility_b;
-    }
-    const double most = std::max(largest(y_), largest(other));
-    for (std::size_t i = 0; i < scale_.size(); ++i)
-      scale_[i] = std::max(least_[i], std::min(most, scale_[i] * points_.speed(i)));
+    scales_.find(points_, impulses, centre_,
+                 std::max(fastest_in(points_, y_), fastest_in(points_, other)));
   }
   /// Sets the limits of the friction to mu r_n of the impulses that a step has found [N s].
   /// @returns the largest change of the velocity of a body that one contact would cause if its friction went to its new limit, relative
@@ -318,42 +296,28 @@ class ProximalStep {
       const auto& point = points_.points()[k];
       const double limit = point.friction * found_[k][0], change = std::abs(limit - limit_[k]);
       // Friction that is below its limit does not feel that the limit changes.
-      if (slip_of(found_[k]) >= (1 - 1e-9) * std::min(limit, limit_[k]))
-        largest = std::max({largest, relative(point.body_a, change * point.mobility_a),
-                            relative(point.body_b, change * point.mobility_b)});
+      if (slip_of<S>(found_[k]) >= (1 - 1e-9) * std::min(limit, limit_[k]))
+        largest =
+            std::max({largest, scales_.relative(points_, point.body_a, change * point.mobility_a),
+                      scales_.relative(points_, point.body_b, change * point.mobility_b)});
       limit_[k] = limit;
       if constexpr (Couples) {
         const double of_couple = point.rolling * found_[k][0],
                      by = std::abs(of_couple - roll_limit_[k]);
         if (couple_of<S>(found_[k]) >= (1 - 1e-9) * std::min(of_couple, roll_limit_[k]))
-          largest = std::max({largest, relative(point.body_a, by * point.mobility_a),
-                              relative(point.body_b, by * point.mobility_b)});
+          largest =
+              std::max({largest, scales_.relative(points_, point.body_a, by * point.mobility_a),
+                        scales_.relative(points_, point.body_b, by * point.mobility_b)});
         roll_limit_[k] = of_couple;
       }
     }
     return largest;
   }
   /// Largest velocity of a body in the motion of the centre, or that errors are relative to at least [m/s].
-  double fastest_body() const {
-    double most = largest(y_);
-    for (const double least : least_) most = std::max(most, least);
-    return most;
-  }
+  double fastest_body() const { return scales_.largest_least(fastest_in(points_, y_)); }
   SlidingScales sliding_scales() const {
     constexpr double open = 1e-6;
-    return {open * fastest_body(), scale_};
-  }
-  double scale_of(std::uint32_t body) const { return body == Points::none ? 0 : scale_[body]; }
-  /// Largest velocity of a body in a motion, relative to find_scales() [-].
-  double relative(std::span<const Coordinates> motion) const {
-    double largest = 0;
-    for (std::size_t i = 0; i < motion.size(); ++i)
-      largest = std::max(largest, relative(std::uint32_t(i), motion[i].norm()));
-    return largest;
-  }
-  /// Velocity of a body for the length of its y, relative to find_scales() [-].
-  double relative(std::uint32_t body, double length) const {
-    return body == Points::none || length == 0 ? 0 : length * points_.speed(body) / scale_[body];
+    return {open * fastest_body(), scales_.all()};
   }
   /// Sets found_, slip_, stiffness_ and f_ for a motion y.
   /// @returns |F|
@@ -371,40 +335,21 @@ class ProximalStep {
       b[0] -= closed_[k];
       slip_[k] = b;
       if (has_limits_) {
-        take(k, s, response_within_limits(k, s, b));
+        take(k, s, Law::within(limit_[k], Couples ? roll_limit_[k] : 0, s, b));
         continue;
       }
       b[0] += lift_[k];
-      if (is_open_at(point, b)) {
+      if (Law::is_without(point, b)) {
         found_[k].setZero();  // stiffness_ is not used
         continue;
       }
-      take(k, s, response_at(point, s, b));
+      take(k, s, Law::at(point, s, b));
     }
     double squares = 0;
     for (const Coordinates& f : f_) squares += f.squaredNorm();
     return std::sqrt(squares);
   }
 
-  static bool is_open_at(const typename Points::Point& point, const Vector& b) {
-    if constexpr (Couples)
-      return is_open<S>(point.friction, point.rolling, b);
-    else
-      return is_open<S>(point.friction, b);
-  }
-  static Response response_at(const typename Points::Point& point, const Vector& s,
-                              const Vector& b) {
-    if constexpr (Couples)
-      return couple_response<S>(point.friction, point.rolling, s, b);
-    else
-      return response<S>(point.friction, s, b);
-  }
-  Response response_within_limits(std::size_t k, const Vector& s, const Vector& b) const {
-    if constexpr (Couples)
-      return couple_response_within<S>(limit_[k], roll_limit_[k], s, b);
-    else
-      return response_within<S>(limit_[k], s, b);
-  }
   /// Takes the response of a point: its impulse moves f_, and the compliances s add to its slip.
   void take(std::size_t k, const Vector& s, const Response& answer) {
     found_[k] = answer.impulse;
@@ -503,7 +448,7 @@ class ProximalStep {
   List<Vector> centre_, found_, slip_;  // impulses: c, and r at the last motion; velocities
   List<double> lift_;                   // sigma [m/s]
   bool has_limits_ = false;             // of friction, in place of lifts
-  List<double> least_, scale_;          // see start() and find_scales(); one per body [m/s]
+  IslandScales<Points> scales_;         // see find_scales()
   List<double> limit_;                  // mu r_n [N s]
   List<double> roll_limit_;             // eta r_n, with couples [N s]
   List<double> closed_;  // part of the opening that is left out, see even_faces() [m/s]
