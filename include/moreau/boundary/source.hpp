@@ -102,11 +102,14 @@ class Source {
     added_.clear();
     require_room(simulation);
     due_ += options_.rate * double(step);
-    std::size_t count = free_grains(simulation);
-    if (count >= options_.grain_limit) due_ = std::min(due_, 1.0);
-    if (due_ < 1 || count >= options_.grain_limit) return now;
+    // Free grains are counted, one by one, only in steps that may add one or where the sum with the obstacles reaches the limit.
+    const std::size_t limit = options_.grain_limit;
+    std::size_t count = simulation.grain_count();
+    if (count >= limit || due_ >= 1) count = free_grains(simulation);
+    if (count >= limit) due_ = std::min(due_, 1.0);
+    if (due_ < 1 || count >= limit) return now;
     find_obstacles(simulation);
-    for (; due_ >= 1 && count < options_.grain_limit && add(simulation); ++count) {
+    for (; due_ >= 1 && count < limit && add(simulation); ++count) {
       due_ -= 1;
       const auto mass = double(simulation.bodies().grain_mass[added_.back().index()]);
       for (GrainSum* sum : {&now, &total_}) {  // also if the next grain throws

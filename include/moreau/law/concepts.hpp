@@ -146,8 +146,7 @@ concept CoulombLaw = PointLaw<L, S> && FrictionLaw<L> && requires {
 /// against r_t and rotation against m as in rolling_resistance.hpp, so that other methods than its solve() may solve it. It
 /// says so by `static constexpr bool is_coulomb = true`. A law that derives from one is one unless it has a solve() of its own.
 template <class L, class S>
-concept RollingCoulombLaw = RollingLaw<L, S> && requires(const L law) {
-  { law.friction() } -> std::convertible_to<double>;
+concept RollingCoulombLaw = RollingLaw<L, S> && FrictionLaw<L> && requires(const L law) {
   { law.rolling() } -> std::convertible_to<double>;
   requires L::is_coulomb;
   requires detail::SolvesAs<L, S, decltype(detail::class_of(&L::rolling))>;
