@@ -28,6 +28,9 @@ void check_solvers(const Law& law) {
   GaussSeidelOptions plain;
   coloured.tolerance = plain.tolerance = tolerance;
   coloured.max_sweeps = plain.max_sweeps = 20000;
+  // Forward sweeps approach a solution of one of the plane problems by a factor of 1 - 6.8e-5: two points of a pair, which
+  // slide and do not roll, exchange load. They take 102,120 sweeps, those that go forward and backward in turn 3,500.
+  plain.order = SweepOrder::symmetric;
   for (const std::uint64_t seed : {1u, 2u}) {
     AssemblyUnder<S, Law> assembly(seed, law);
     const auto solve = [&](const auto& solver) {

@@ -20,8 +20,8 @@ namespace moreau {
 
 /// Order of the contacts in consecutive sweeps.
 enum class SweepOrder {
-  forward,    ///< in the order of the contacts
-  symmetric,  ///< forward and backward in turn
+  forward,  ///< in the order of the contacts
+  symmetric,  ///< forward and backward in turn; can converge much faster where points of a pair exchange load
 };
 
 /// Options of NonlinearGaussSeidel.
