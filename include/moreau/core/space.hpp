@@ -108,11 +108,9 @@ struct Space<2, T> : detail::SpaceTypes<2, T, Eigen::Rotation2D<T>> {
   /// The gyroscopic torque w x I w [N m] for an inertia I [kg m^2] and an angular velocity w
   /// [rad/s]. In the plane it is zero.
   static Angular gyroscopic(const Inertia&, const AngularArgument&) { return Angular::Zero(); }
-  /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. In the
-  /// plane it is zero.
-  static Inertia angular_momentum_jacobian(const Inertia&, const AngularArgument&) {
-    return Inertia::Zero();
-  }
+  /// The A x A matrix for which turning(l) dr is the change of an angular quantity l in a small rotation dr [rad].
+  /// In the plane it is zero.
+  static Inertia turning(const AngularArgument&) { return Inertia::Zero(); }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangent t.
   /// @param n  must be unit
   static Matrix contact_frame(const VectorArgument& n) {
@@ -135,11 +133,18 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   static Rotation exp(const AngularArgument& w) {
     const T half = w.norm() / T(2);
     // For small x, sin(x)/x is computed by its series, because the quotient would lose digits. The
-    // first neglected term is -x^6/5040.
-    const T sinc = half < T(1e-2) ? T(1) - half * half / T(6) * (T(1) - half * half / T(20))
-                                  : std::sin(half) / half;
+    // first neglected terms are -x^6/5040 and, of the cosine, x^8/40320.
+    T sinc, cosine;
+    if (half < T(1e-2)) {
+      const T x = half * half;
+      sinc = T(1) - x / T(6) * (T(1) - x / T(20));
+      cosine = T(1) - x / T(2) * (T(1) - x / T(12) * (T(1) - x / T(30)));
+    } else {
+      sinc = std::sin(half) / half;
+      cosine = std::cos(half);
+    }
     const T scale = sinc / T(2);
-    return Rotation(std::cos(half), scale * w[0], scale * w[1], scale * w[2]);
+    return Rotation(cosine, scale * w[0], scale * w[1], scale * w[2]);
   }
   /// Removes the rounding errors that many small rotations cause: q scaled to unit length.
   static Rotation normalized(const Rotation& q) { return q.normalized(); }
@@ -173,11 +178,9 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
   /// The gyroscopic torque w x I w [N m] for an inertia I [kg m^2] and an angular velocity w
   /// [rad/s], both in the same axes.
   static Angular gyroscopic(const Inertia& I, const AngularArgument& w) { return w.cross(I * w); }
-  /// The A x A derivative of I(q) w with respect to a rotation of q, at fixed w [kg m^2/s]. For a
-  /// small rotation dr, d(I(q) w) = (lever(I w) - I lever(w)) dr, where lever(a) b = b x a.
-  static Inertia angular_momentum_jacobian(const Inertia& I, const AngularArgument& w) {
-    return lever(I * w) - I * lever(w);
-  }
+  /// The A x A matrix for which turning(l) dr = dr x l is the change of an angular quantity l in a small rotation
+  /// dr [rad].
+  static Inertia turning(const AngularArgument& l) { return lever(l); }
   /// D x D, orthonormal, right-handed. The columns are the normal n and the tangents t and s.
   /// Source: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017).
   /// @param n  must be unit

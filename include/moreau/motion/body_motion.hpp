@@ -68,8 +68,8 @@ template <class S>
 
 }  // namespace detail
 
-/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. The derivative
-/// of I(q) w with respect to a rotation is S::angular_momentum_jacobian. The body i must rotate
+/// Solves I(exp(h w) q) w = L for the angular velocity w [rad/s] by Newton's method. In body axes, in which
+/// I is constant, the equation is I w = exp(-h w) L, because exp(h w) leaves w as it is. The body i must rotate
 /// (Bodies::rotates()); q is its rotation in bodies.pose. L is met to rounding for rotations h |w| up to
 /// 1.5, also of bodies five times as long as wide; for larger ones w may not meet L, but the error is
 /// not above that of `start`.
@@ -81,22 +81,26 @@ typename S::Angular spin_after(const Bodies<S>& bodies, std::size_t i,
                                const typename S::Angular& momentum,
                                const typename S::Angular& start, typename S::Scalar h) {
   using Scalar = typename S::Scalar;
-  const typename S::Rotation& q = bodies.pose[i].rotation;
+  using Angular = typename S::Angular;
+  using Inertia = typename S::Inertia;
+  const Inertia axes = S::adjoint(bodies.pose[i].rotation);
   // In units of the inertia: squares of momenta of small and of large bodies could not be represented.
   const Scalar unit = reciprocal_power(bodies.inertia_body[i].trace());
-  const typename S::Angular scaled = unit * momentum;
+  const Inertia inertia = unit * bodies.inertia_body[i];
+  const Angular scaled = unit * momentum, fixed = transposed_product(axes, scaled);
   const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * scaled.norm();
-  typename S::Angular w = start;
+  Angular w = transposed_product(axes, start);
+  Inertia inverse = inertia;
+  Scalar before = 0;
   for (int iteration = 0; iteration < 10; ++iteration) {
-    const typename S::Inertia inertia = unit * bodies.inertia(i, S::exp(h * w) * q);
-    typename S::Angular error = product(inertia, w);
-    error -= scaled;
+    const Angular turned = product(Inertia(S::adjoint(S::exp(-h * w))), fixed);
+    const Angular error = product(inertia, w) - turned;
+    const Scalar size = error.norm();
     // After some steps the error may stay at a few rounding errors.
-    if (error.norm() <= (iteration < 6 ? 2 : 16) * rounding) return w;
-    typename S::Inertia jacobian = S::angular_momentum_jacobian(inertia, w);
-    for (int k = 0; k < S::angular_dim * S::angular_dim; ++k)
-      jacobian.data()[k] = inertia.data()[k] + h * jacobian.data()[k];
-    const typename S::Inertia inverse = inverse_of(jacobian);
+    if (size <= (iteration < 6 ? 2 : 16) * rounding) return product(axes, w);
+    // The derivative of small rotations hardly changes from one iteration to the next.
+    if (!(size < before / 64)) inverse = inverse_of(Inertia(inertia + h * S::turning(turned)));
+    before = size;
     w -= product(inverse, error);
   }
   return detail::spin_after_large<S>(bodies, i, scaled, start, h, unit);

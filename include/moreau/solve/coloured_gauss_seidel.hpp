@@ -140,7 +140,7 @@ class ColouredGaussSeidel {
     if (islands.empty()) return sweep(problem, impulses, workspace);
     SolveReport report;
     const bool solved = islands.all_meet_tolerance();
-    if (solved) judge(problem, impulses, true, islands, report);
+    if (solved) judge(problem, impulses, true, workspace, report);
     if (solved && report.converged) return report;
     islands.save(impulses);
     report = sweep(problem, impulses, workspace);
@@ -153,7 +153,7 @@ class ColouredGaussSeidel {
     workspace.first.assign(impulses.begin(), impulses.end());
     islands.finish(problem, impulses, report.sweeps, sweeps_converged);
     if (!islands.attempted()) return report;
-    judge(problem, impulses, sweeps_converged, islands, report);
+    judge(problem, impulses, sweeps_converged, workspace, report);
     if (!sweeps_converged || report.residual <= std::max(residual, options_.tolerance))
       return report;
     // Under tolerances near rounding sweeps go on from even pressures, and keep them.
@@ -170,7 +170,7 @@ class ColouredGaussSeidel {
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
     islands.roll_back();
-    judge(problem, impulses, sweeps_converged, islands, report);
+    judge(problem, impulses, sweeps_converged, workspace, report);
     return report;
   }
 
@@ -178,11 +178,21 @@ class ColouredGaussSeidel {
   /// @param sweeps_converged whether sweeps, if there were any, met their stopping test
   template <class Operator, class Law>
   void judge(ContactProblem<Operator, Law>& problem, std::span<typename Operator::Vector> impulses,
-             bool sweeps_converged, const detail::IslandSolver<Operator, Law>& islands,
+             bool sweeps_converged, Workspace<Operator, Law>& workspace,
              SolveReport& report) const {
-    detail::set_impulses<Operator>(problem.delassus, impulses);
+    auto& [sweeps, first, islands] = workspace;
+    const std::span<const typename Operator::Vector> known = impulses;
+    if (sweeps.is_packed())
+      sweeps.take(problem.delassus, known, team_);
+    else
+      detail::set_impulses<Operator>(problem.delassus, known);
     islands.move(problem.delassus);
-    measure_residual(problem, std::span<const typename Operator::Vector>(impulses), report, team_);
+    if (sweeps.is_packed()) {
+      sweeps.take_velocities(problem.delassus);
+      sweeps.measure_residual(problem, known, report, team_);
+    } else {
+      measure_residual(problem, known, report, team_);
+    }
     islands.write(report);
     const bool by_changes = options_.stop_test == StopTest::qm16 && sweeps_converged;
     // The remaining approach is relative to that without impulses, which may be rounding. Errors of islands are relative

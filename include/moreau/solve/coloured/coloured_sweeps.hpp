@@ -74,6 +74,16 @@ class ColouredSweeps {
       moreau::measure_residual(problem, impulses, report, team, shared_);
     }
   }
+  /// Whether the groups are those of the present problem: after start(), until forget().
+  bool is_packed() const { return is_packed_; }
+  /// Takes impulses that others have changed since start(), and gives the operator their velocities.
+  void take(Operator& op, std::span<const Impulse> impulses, const Team& team) {
+    kernel_.take(impulses, team);
+    find_velocities(team);
+    kernel_.give_velocities(op, impulses, team, shared_);
+  }
+  /// Takes velocities of bodies from the operator that are not those of the impulses.
+  void take_velocities(const Operator& op) { kernel_.take_velocities(op); }
   /// Saves the impulses.
   void save(const Team& team) {
     const auto& points = kernel_.points();
@@ -188,7 +198,7 @@ class ColouredSweeps {
   }
   /// Computes the velocities of the bodies and of the cell from the impulses of the points alone, and updates the
   /// active points of the groups.
-  void find_velocities(const Team& team) {
+  MOREAU_COMPILED_ONCE void find_velocities(const Team& team) {
     kernel_.begin_from_zero();
     const auto apply = [&](int rank, int size, const TeamBarrier& wait) {
       const auto visit = [this](std::uint32_t k) { kernel_.apply(k); };

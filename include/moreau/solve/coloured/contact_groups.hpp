@@ -168,6 +168,12 @@ class ContactGroups {
       Filler::refill(points[p], &contact_of_[p * lanes], problem, impulses);
     });
   }
+  /// Takes other impulses alone.
+  void refill(std::span<const Impulse> impulses, const Team& team) {
+    team.share_each(points.size(), 64, [&](std::size_t p) {
+      Filler::set_impulses(points[p], &contact_of_[p * lanes], impulses);
+    });
+  }
   /// Writes the impulses of the groups in the order of the problem.
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     team.share_each(points.size(), 128, [&](std::size_t p) {

@@ -107,10 +107,18 @@ class GroupKernel {
         impulses, [this](std::size_t i) { return velocity_.of(i); }, team);
     if (shared) {
       shared->average(op.velocity_changes(), Operator::width);
-      for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.velocity_change(i));
+      take_velocities(op);
     }
     velocity_.forget_change();
     if (cell_.moves()) cell_.set_rate(op.cell_change());
+  }
+  /// Takes other impulses of the points than those of start().
+  void take(std::span<const Impulse> impulses, const Team& team) {
+    contacts_.refill(impulses, team);
+  }
+  /// Takes the velocities of the bodies from the operator.
+  MOREAU_COMPILED_ONCE void take_velocities(const Operator& op) {
+    for (std::size_t i = 0; i < op.body_count(); ++i) velocity_.set(i, op.velocity_change(i));
   }
   void unpack(std::span<Impulse> impulses, const Team& team) const {
     contacts_.unpack(impulses, team);

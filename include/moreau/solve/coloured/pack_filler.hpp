@@ -76,7 +76,7 @@ class PackFiller {
     set_impulses(point, contacts, impulses);
   }
 
- private:
+  /// Replaces the impulses of a PointPack.
   static void set_impulses(Points& point, const std::uint32_t* contacts,
                            std::span<const Impulse> impulses) {
     static const Impulse zero = Impulse::Zero();
@@ -90,6 +90,8 @@ class PackFiller {
       point.impulse[d] = point.before[d] = row;
     }
   }
+
+ private:
   /// Reads frames, levers, blocks and free velocities.
   /// @param rows the PointNumbers of each lane
   static void read(Points& point, const std::array<const typename S::Scalar*, lanes>& rows) {
