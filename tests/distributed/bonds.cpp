@@ -129,6 +129,31 @@ std::optional<World> check_motion(const World& scene, int steps) {
   return result;
 }
 
+/// To distribute and to gather leaves the state as it is, after steps of several lengths and with materials that were
+/// replaced after the last of them.
+/// @param replacing law of the steps to come
+template <class World>
+void check_round_trip(const World& scene, const LawIn<World>& replacing) {
+  World start = scene;
+  if (rank() == 0)
+    for (int k = 0; k < 60; ++k) start.step(k % 20 < 10 ? step : step / 20);
+  start.set_materials(Materials<LawIn<World>>(1, replacing));
+  DistributedSimulation<World> packing(MPI_COMM_WORLD, start);
+  std::optional<World> whole = packing.gather();
+  if (!whole) return;
+  for (const double factor : {0.0, 0.2, 1.0}) {
+    if (factor > 0) {
+      whole->step(factor * step);
+      start.step(factor * step);
+    }
+    CHECK(state(*whole) == state(start));
+  }
+  if constexpr (BondingLaw<LawIn<World>, typename World::S>) {
+    CHECK(start.bonds().size() > 3);
+    CHECK(start.breakages().size() > 0);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("Rigid bonds over processes hold and break as in one") {
@@ -172,4 +197,17 @@ TEST_CASE("Cohesion with springs holds, breaks and forms over processes as in on
   CHECK(broken > 3);
   CHECK(formed > 3);
   MESSAGE(held, " pairs hold, ", broken, " broke, ", formed, " formed");
+}
+
+TEST_CASE("To distribute and to gather changes no memory of bonds, bridges and cohesion") {
+  check_round_trip(block<Disk<>>(Glue({3e3, 2e3, 2e3}, 0.4), 1, 2.6 * size),
+                   Glue({4e3, 3e3, 3e3}, 0.3));
+  check_round_trip(block<Ball<>>(SoftGlue(Glue({20, 15, 15, 2e-4}, 0.4), 1e5), 1, 0.7 * size),
+                   SoftGlue(Glue({30, 20, 20, 2e-4}, 0.3), 2e5));
+  const CapillaryBridge<> bridge(1e-9, 50);
+  using Wet = Bridged<CapillaryBridge<>, Rigid>;
+  check_round_trip(block<Ball<>>(SoftWet(Wet(bridge, Rigid(0.4)), 1e5), 1, 0.7 * size),
+                   SoftWet(Wet(CapillaryBridge<>(1e-9, 40), Rigid(0.3)), 1e5));
+  check_round_trip(block<Ball<>>(SoftSticky(Cohesive<Rigid>(Rigid(0.4), 5), 1e5), 1, 0.7 * size),
+                   SoftSticky(Cohesive<Rigid>(Rigid(0.4), 3), 1e5));
 }

@@ -16,6 +16,7 @@
 
 #include "moreau/distributed/distributed_simulation.hpp"
 #include "moreau/distributed/reproducible_gauss_seidel.hpp"
+#include "moreau/io/snapshot.hpp"
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
@@ -171,6 +172,14 @@ SolveReport measured_on_one_rank(World before, const World& after) {
   for (std::size_t c = 0; c < mine.size(); ++c) problem.delassus.apply(c, impulses[c]);
   measure_residual(problem, std::span<const Row>(impulses), report);
   return report;
+}
+
+/// The state of a simulation without the list of pairs, which a gathered one does not have.
+template <class World>
+std::string state(World& world) {
+  detail::WorldParts<World> parts(world);
+  parts.forget_pairs();
+  return snapshot(world);
 }
 
 }  // namespace distributed_test

@@ -79,7 +79,7 @@ std::vector<BodyList<S>> lend_grains(BodyList<S>& grains, ShapeStore<ShapeT>& sh
                found, buffer);
     for (const int rank : found) {
       if (rank == processes.rank()) continue;
-      out[std::size_t(rank)].add(grains.bodies, k, grains.bodies.id[k], grains.shapes[k]);
+      out[std::size_t(rank)].add(grains, k);
       lent[std::size_t(rank)].push_back(grains.bodies.id[k]);
     }
   }

@@ -192,7 +192,9 @@ void Redistribution<World>::redistribute(Scalar slack, double imbalance) {
   cut_if_uneven(imbalance);
   shapes_.take(shape_ids_, parts.shapes());
   Grains walls, grains;
-  for (const std::uint32_t i : topology_.walls) walls.add(parts.bodies(), i, ids_[i], ShapeId());
+  const auto remembered = parts.remembered();
+  for (const std::uint32_t i : topology_.walls)
+    walls.add(parts.bodies(), remembered, i, ids_[i], ShapeId());
   ContactsOnTheWay contacts;
   const Scalar longest = Scalar(processes_.largest(double(longest_stretch())));
   migrate(grains, contacts);
@@ -239,8 +241,9 @@ void Redistribution<World>::migrate(Grains& grains, ContactsOnTheWay& contacts) 
   }
   std::vector<Grains> leaving(ranks());
   std::vector<ContactsOnTheWay> leaving_contacts(ranks());
+  const auto remembered = parts.remembered();
   for (const std::uint32_t i : own_)
-    leaving[std::size_t(owner[i])].add(bodies, i, ids_[i], ShapeId(shape[i]));
+    leaving[std::size_t(owner[i])].add(bodies, remembered, i, ids_[i], ShapeId(shape[i]));
   const auto& all = parts.contacts();
   for (std::size_t c = 0; c < all.size(); ++c) {
     const std::uint32_t a = all.points[c].a, b = all.points[c].b;
@@ -298,7 +301,7 @@ template <class World>
 void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts, Grains& walls,
                                      const std::vector<std::vector<BodyId>>& lent) {
   Parts parts(world_);
-  Bodies<S> bodies;
+  Grains here;  // with the numbers of this process
   ids_.clear();
   own_.clear();
   reference_.clear();
@@ -308,11 +311,11 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
   parts.grains().clear();
   parts.shapes().clear();
   shape_ids_.clear();
-  std::map<std::uint32_t, ShapeId> here;  // shapes by id
+  std::map<std::uint32_t, ShapeId> numbers;  // of shapes, by id
   for (const Entry& entry : entries_by_id(grains, ghosts, walls)) {
-    const auto i = static_cast<std::uint32_t>(bodies.size());
-    append(bodies, entry.list->bodies, entry.number);
-    bodies.id.back() = BodyId(i);
+    const auto i = static_cast<std::uint32_t>(here.size());
+    here.add(*entry.list, entry.number);
+    here.bodies.id.back() = BodyId(i);
     ids_.push_back(entry.id);
     topology_.owner.push_back(entry.owner);
     if (entry.owner == RankTopology::everywhere) {
@@ -320,7 +323,7 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
       continue;
     }
     const std::uint32_t shape = entry.list->shapes[entry.number].value;
-    const auto [known, is_new] = here.emplace(shape, ShapeId(shape_ids_.size()));
+    const auto [known, is_new] = numbers.emplace(shape, ShapeId(shape_ids_.size()));
     if (is_new) {
       parts.shapes().push_back(std::move(shapes_[ShapeId(shape)]));
       shape_ids_.push_back(shape);
@@ -328,7 +331,7 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
     parts.grains().push_back({BodyId(i), known->second});
     if (entry.owner == processes_.rank()) {
       own_.push_back(i);
-      reference_.push_back(bodies.pose[i].position);
+      reference_.push_back(here.bodies.pose[i].position);
     } else {
       topology_.ghosts[std::size_t(entry.owner)].push_back(i);
     }
@@ -341,7 +344,8 @@ void Redistribution<World>::assemble(Grains& grains, std::vector<Grains>& ghosts
   std::size_t next = 0;
   parts.for_each_wall(
       [&](BodyId& wall) { wall = BodyId(local_index(whole_.walls[next++].value)); });
-  parts.bodies() = std::move(bodies);
+  parts.bodies() = std::move(here.bodies);
+  parts.set_remembered(std::move(here.remembered));
 }
 
 template <class World>

@@ -42,8 +42,9 @@ class WholeSimulation {
     if (processes.rank() != 0) return;
     shapes_ = parts.shapes();
     Bodies<S>& bodies = parts.bodies();
+    const auto remembered = parts.remembered();
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (!bodies.exists(i)) removed_.add(bodies, i, bodies.id[i], ShapeId());
+      if (!bodies.exists(i)) removed_.add(bodies, remembered, i, bodies.id[i], ShapeId());
   }
   /// @param world     the part of this process
   /// @param shape_ids of the whole simulation, one per shape of the part
@@ -82,8 +83,9 @@ std::string WholeSimulation<World>::packed_part(World& world, const RankTopology
   for (const auto& grain : parts.grains())
     shape[grain.body.index()] = shape_ids[grain.shape.index()];
   BodyList<S> grains;
+  const auto remembered = parts.remembered();
   for (const std::uint32_t i : own)
-    grains.add(parts.bodies(), i, topology.ids[i], ShapeId(shape[i]));
+    grains.add(parts.bodies(), remembered, i, topology.ids[i], ShapeId(shape[i]));
   ContactsOnTheWay<World> contacts;
   const auto& all = parts.contacts();
   for (std::size_t c = 0; c < all.size(); ++c)
@@ -100,12 +102,13 @@ void WholeSimulation<World>::set_bodies(Parts& whole, BodyList<S>& list, std::si
   for (std::size_t k = 0; k < order.size(); ++k) order[list.bodies.id[k].index()] = k;
   whole.shapes() = shapes_;
   whole.grains().clear();
-  Bodies<S> bodies;
+  BodyList<S> all;
   for (const std::size_t k : order) {
-    append(bodies, list.bodies, k);
+    all.add(list, k);
     if (k < grains) whole.grains().push_back({list.bodies.id[k], list.shapes[k]});
   }
-  whole.bodies() = std::move(bodies);
+  whole.bodies() = std::move(all.bodies);
+  whole.set_remembered(std::move(all.remembered));
   std::size_t next = 0;
   whole.for_each_wall([&](BodyId& wall) { wall = walls[next++]; });
 }
@@ -137,8 +140,9 @@ std::optional<World> WholeSimulation<World>::gather(World& world, Communicator& 
   contacts.sort();
   const std::size_t grains = list.size();
   Parts here(world);
+  const auto remembered = here.remembered();
   for (const std::uint32_t i : topology.walls)
-    list.add(here.bodies(), i, topology.ids[i], ShapeId());
+    list.add(here.bodies(), remembered, i, topology.ids[i], ShapeId());
   BodyList<S> removed = removed_;
   list.add_all(removed);
 

@@ -62,6 +62,7 @@ struct StateAccess {
   }
   static auto& springs(auto& dynamics) { return dynamics.springs_; }
   static auto& energies(auto& springs) { return springs.energies_; }
+  static auto& velocities(auto& springs) { return springs.last_; }
   static auto& shifts(auto& dynamics) { return dynamics.correction_.shifts_; }
 
   /// Makes the list of pairs empty, so that the next step finds all pairs.
@@ -105,6 +106,22 @@ struct WorldParts {
   auto& springs() { return StateAccess::springs(dynamics()); }
   static constexpr bool has_springs = StateAccess::has_springs<
       std::remove_cvref_t<decltype(StateAccess::dynamics(std::declval<World&>()))>>();
+  /// The velocities of the bodies that springs remember: those after the step before. A body that was added since has the
+  /// velocity that it has now. None without springs.
+  List<typename S::Twist> remembered() {
+    List<typename S::Twist> velocities;
+    if constexpr (has_springs) {
+      velocities = StateAccess::velocities(springs());
+      for (std::size_t i = velocities.size(); i < bodies().size(); ++i)
+        velocities.push_back(bodies().velocity[i]);
+    }
+    return velocities;
+  }
+  /// Replaces the velocities that springs remember.
+  /// @param velocities one per body; without springs nothing is done
+  void set_remembered([[maybe_unused]] List<typename S::Twist> velocities) {
+    if constexpr (has_springs) StateAccess::velocities(springs()) = std::move(velocities);
+  }
 
   /// The shifts of the overlap correction in the last step, which the next step does not need.
   auto& shifts() { return StateAccess::shifts(dynamics()); }
@@ -160,10 +177,7 @@ struct WorldParts {
     assembly().forget_placed();
     SerializationAccess::deserialized(assembly());
     if (placed) assembly().note_all_placed();
-    if constexpr (has_springs) {
-      springs().forget_velocities();  // the bodies have other numbers
-      SerializationAccess::deserialized(springs());
-    }
+    if constexpr (has_springs) SerializationAccess::deserialized(springs());
     SerializationAccess::deserialized(world);
   }
 };
@@ -183,19 +197,26 @@ void append(Bodies<S>& to, Bodies<S>& from, std::size_t i) {
 template <class S>
 struct BodyList {
   Bodies<S> bodies;
-  std::vector<ShapeId> shapes;  ///< one per body, ids of the whole simulation
+  std::vector<ShapeId> shapes;         ///< one per body, ids of the whole simulation
+  List<typename S::Twist> remembered;  ///< of WorldParts::remembered(): one per body, or none
 
-  void add(Bodies<S>& from, std::size_t i, BodyId id, ShapeId shape) {
+  /// @param from_remembered those of `from`
+  void add(Bodies<S>& from, const List<typename S::Twist>& from_remembered, std::size_t i,
+           BodyId id, ShapeId shape) {
     append(bodies, from, i);
     bodies.id.back() = id;
     shapes.push_back(shape);
+    if (!from_remembered.empty()) remembered.push_back(from_remembered[i]);
+  }
+  /// Adds element i of a list.
+  void add(BodyList& from, std::size_t i) {
+    add(from.bodies, from.remembered, i, from.bodies.id[i], from.shapes[i]);
   }
   void add_all(BodyList& from) {
-    for (std::size_t i = 0; i < from.bodies.size(); ++i)
-      add(from.bodies, i, from.bodies.id[i], from.shapes[i]);
+    for (std::size_t i = 0; i < from.size(); ++i) add(from, i);
   }
   std::size_t size() const { return shapes.size(); }
-  auto serialized_members() { return std::tie(bodies, shapes); }
+  auto serialized_members() { return std::tie(bodies, shapes, remembered); }
 };
 
 /// Contacts on their way, with the bodies of the whole simulation, and the energies of their springs.

@@ -161,8 +161,6 @@ class ContactSprings {
   /// Ends the step.
   /// @param velocities of the bodies after the step [m/s, rad/s]
   void remember(const List<typename S::Twist>& velocities) { last_ = velocities; }
-  /// The velocities after the step before are those that bodies have now.
-  void forget_velocities() { last_.clear(); }
   /// -c s + d / h, part of b [m/s].
   const Row& relaxation(std::size_t c) const { return relaxation_[c]; }
   /// Energy of the springs of a contact before the step, with the stiffness of this one [J].
