@@ -243,6 +243,45 @@ TEST_CASE_TEMPLATE(
   CHECK(momentum == doctest::Approx(4));
 }
 
+TEST_CASE_TEMPLATE(
+    "after some calm steps pairs that hardly move have no contacts over small gaps, until a hit",
+    ShapeT, MOREAU_TYPES((Polyhedron<>, Polygon<>), (Ball<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Scene<ShapeT> scene(0);
+  constexpr std::size_t count = 5;
+  for (std::size_t k = 0; k < count; ++k) {  // the gaps are a thirtieth of the margin
+    Pose<S> pose;
+    pose.position[0] = double(k) * size * (1 + 0.2 / 30);
+    scene.add(grain_of<ShapeT>(1), pose);
+  }
+  World<ShapeT> copy = scene.world;
+  const TemporaryFolder folder("step_margins");
+  const auto has_contacts = [&] { return scene.world.contacts().size() > 0; };
+  for (int k = 0; k < 8; ++k) {
+    scene.step();
+    CHECK(has_contacts());
+    if (k != 4) continue;
+    write_snapshot(folder / "state", scene.world);
+    reload_snapshot(folder / "state", copy);
+  }
+  scene.step();
+  CHECK(!has_contacts());
+  for (int k = 5; k < 9; ++k) {
+    copy.step(h);
+    CHECK((copy.contacts().size() > 0) == (k < 8));
+  }
+  CHECK(scene.repeated == 0);
+  // A hit goes through the row in one step, which is solved again.
+  scene.world.set_velocity(scene.world.grains()[0], 2 * Vector::UnitX());
+  scene.run(4);
+  CHECK(scene.repeated > 0);
+  CHECK(scene.world.velocity(scene.world.grains()[count - 1])[0] > 0.01);
+  double momentum = 0;
+  for (const BodyId grain : scene.world.grains()) momentum += scene.world.velocity(grain)[0];
+  CHECK(momentum == doctest::Approx(2));
+}
+
 TEST_CASE("the far end of a lever moves faster than what hits the near end") {
   using ShapeT = Polygon<>;
   using S = SpaceOf<ShapeT>;

@@ -139,15 +139,18 @@ class ContactDetector {
   void leave_out(const auto& bonds) { margins_.leave_out(near_.pairs(), grains_, bonds); }
   /// Chooses the margin of each pair for the next detect(): the gap that it can close in a step, by the velocities
   /// of the bodies (detail/step_margins.hpp). Call find_pairs() before.
-  /// @param step h [s]
-  void fit_margins(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies, Scalar step);
+  /// @param step  h [s]
+  /// @param share of the whole margin that each pair gets at least [-]
+  void fit_margins(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies, Scalar step,
+                   double share);
   /// Gives all pairs the margin of the lengths, from the next detect() on; so it is unless fit_margins() is called.
   void use_whole_margin() { margins_.use_whole(); }
   bool has_fitted_margins() const { return margins_.are_fitted(); }  ///< of the last detect()
   /// Whether no pair approaches in a step by more than the margin of the last detect() for it, unless that is the
-  /// margin of the lengths. Call it only if has_fitted_margins().
-  bool margins_suffice(const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
-                       const detail::StepMotion<S>& motion);
+  /// margin of the lengths, and whether the least margins would have been enough. Call it only if has_fitted_margins().
+  typename detail::StepMargins<S>::Sufficiency margins_suffice(
+      const DetectionLengths<Scalar>& lengths, const Bodies<S>& bodies,
+      const detail::StepMotion<S>& motion);
 
   /// Finds the contact points with a gap up to the margin, sorted by (a, b, parts, feature), with zero
   /// impulse, law and variant 0. Pairs of two bodies whose motion is prescribed have none: no impulse could

@@ -127,15 +127,17 @@ void ContactDetector<ShapeT, BroadPhaseT>::detect_points(
 
 template <class ShapeT, class BroadPhaseT>
 void ContactDetector<ShapeT, BroadPhaseT>::fit_margins(const DetectionLengths<Scalar>& lengths,
-                                                       const Bodies<S>& bodies, Scalar step) {
+                                                       const Bodies<S>& bodies, Scalar step,
+                                                       double share) {
   const detail::StepMotion<S> motion{bodies.velocity, {}, step};
-  margins_.fit(team_, bounds_of(lengths, bodies, motion));
+  margins_.fit(team_, bounds_of(lengths, bodies, motion), share);
 }
 
 template <class ShapeT, class BroadPhaseT>
-bool ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(const DetectionLengths<Scalar>& lengths,
+auto ContactDetector<ShapeT, BroadPhaseT>::margins_suffice(const DetectionLengths<Scalar>& lengths,
                                                            const Bodies<S>& bodies,
-                                                           const detail::StepMotion<S>& motion) {
+                                                           const detail::StepMotion<S>& motion) ->
+    typename detail::StepMargins<S>::Sufficiency {
   return margins_.suffice(team_, bounds_of(lengths, bodies, motion));
 }
 

@@ -93,7 +93,7 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::detect(StepReport& repo
   }
   report.ms_pairs = clock.lap();
   if (narrows_margins() && attempts_.begin())
-    detector_.fit_margins(lengths(), bodies(), step);
+    detector_.fit_margins(lengths(), bodies(), step, attempts_.share());
   else
     detector_.use_whole_margin();
   // The contacts of the step before the last are replaced; the swap below makes the new ones contacts_.
@@ -125,10 +125,10 @@ MOREAU_INLINED inline bool Simulation<ShapeT, Law, Integrator, Broad, Solver>::d
     StepReport& report,
     const detail::StepContext<S, Law>& context) requires SetValuedLaw<Law, SpaceOf<ShapeT>> {
   if (!detector_.has_fitted_margins()) return false;
-  const bool enough =
+  const auto [is_enough, is_calm] =
       detector_.margins_suffice(lengths(), bodies(), dynamics_.motion(context, chords_.has_any()));
-  attempts_.end(!enough);
-  if (enough) return false;
+  attempts_.end(!is_enough, is_calm);
+  if (is_enough) return false;
   StepReport::StageClock clock;
   dynamics_.undo_shifts(assembly_.bodies());
   detector_.use_whole_margin();

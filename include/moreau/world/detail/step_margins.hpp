@@ -20,7 +20,8 @@
 //
 //     m = M / 10 + 2 max(s_i, s_j)
 //
-// covers the pairs of a body that is hit, and M / 10 small motions.
+// covers the pairs of a body that is hit, and M / 10 small motions. After some steps in which M / 100 would have been enough
+// for them in all pairs, it takes the place of M / 10, until a step needs more. suffice() finds out both.
 //
 // The bound: points of both bodies at most R from the centre of a have relative velocities of at most
 // |u| + R |w|, u being the relative velocity of the two rigid motions at this centre and w that of their rotations.
@@ -99,6 +100,12 @@ struct StepMotion {
 struct MarginAttempts {
   std::uint32_t waiting = 0;  ///< steps until the next attempt
   std::uint32_t pause = 1;    ///< steps to wait after the next failure
+  std::uint32_t calm =
+      0;  ///< steps in a row for which the least margins were enough, counted up to eight
+
+  /// The share of the whole margin that each pair gets at least [-].
+  double share() const { return calm < 8 ? usual_share : least_share; }
+  static constexpr double usual_share = 0.1, least_share = 0.01;
 
   /// Whether to choose margins in this step.
   bool begin() {
@@ -107,8 +114,10 @@ struct MarginAttempts {
     return false;
   }
   /// After an attempt.
-  void end(bool repeated) {
+  /// @param is_calm whether the least margins were or would have been enough
+  void end(bool repeated, bool is_calm) {
     constexpr std::uint32_t longest = 64;
+    calm = is_calm ? std::min(8U, calm + 1) : 0;
     if (repeated) waiting = pause;
     pause = repeated ? std::min(longest, 2 * pause) : std::max(1U, pause / 2);
   }
@@ -123,8 +132,10 @@ class StepMargins {
   void use_whole() { fitted_ = false; }  ///< gives all pairs the whole margin
   /// Chooses the margins of a step.
   /// @param bounds ApproachBounds by the velocities before the step
-  MOREAU_INLINED void fit(const Team& team, const auto& bounds) {
+  /// @param share  MarginAttempts::share()
+  MOREAU_INLINED void fit(const Team& team, const auto& bounds, double share) {
     fitted_ = true;
+    share_ = Scalar(share);
     near_.resize(bounds.pairs.size());
     of_grain_.resize(bounds.grains.size());
     team.share_each(of_grain_.size(), 256,
@@ -160,47 +171,61 @@ class StepMargins {
   /// The margin of a pair of grains [m].
   /// @param whole the largest margin [m]
   Scalar of_pair(std::size_t first, std::size_t second, Scalar whole) const {
-    return fitted_ ? margin(std::max(of_grain_[first], of_grain_[second]), whole) : whole;
+    return fitted_ ? margin(approach_of(first, second), whole, share_) : whole;
   }
   /// The margin of grain k and any wall [m].
   Scalar of_walls(std::size_t k, Scalar whole) const {
-    return fitted_ ? margin(of_grain_[k], whole) : whole;
+    return fitted_ ? margin(of_grain_[k], whole, share_) : whole;
   }
 
-  /// Whether no pair can approach by more than its margin, unless that is the whole one.
+  /// What suffice() finds out.
+  struct Sufficiency {
+    bool
+        is_enough;  ///< whether no pair can approach by more than its margin, unless that is the whole one
+    bool is_calm;  ///< the same of the margins with MarginAttempts::least_share
+  };
   /// @param bounds ApproachBounds of the motion that has been found
-  bool suffice(const Team& team, const auto& bounds) {
-    std::atomic<bool> enough{true};
-    const auto check = [&](Scalar margin, Scalar reach, const auto& bound) {
-      if (margin < bounds.margin && !(reach <= margin) && bound() > margin)
-        enough.store(false, std::memory_order_relaxed);
+  Sufficiency suffice(const Team& team, const auto& bounds) {
+    std::atomic<bool> enough{true}, calm{true};
+    const auto check = [&](Scalar approach, Scalar reach, const auto& bound) {
+      const Scalar least = margin(approach, bounds.margin, Scalar(MarginAttempts::least_share)),
+                   chosen = margin(approach, bounds.margin, share_);
+      if (reach <= (calm.load(std::memory_order_relaxed) ? least : chosen) ||
+          !(least < bounds.margin))
+        return;
+      const Scalar most = bound();
+      if (most > least) calm.store(false, std::memory_order_relaxed);
+      if (most > chosen && chosen < bounds.margin) enough.store(false, std::memory_order_relaxed);
     };
     const Scalar widest = bounds.widest(), reach_of_walls = bounds.reach_of_walls();
     reach_.resize(of_grain_.size());
     team.share_each(of_grain_.size(), 256, [&](std::size_t k) {
       reach_[k] = bounds.reach(k, widest);
-      check(of_walls(k, bounds.margin), reach_[k] + reach_of_walls,
-            [&] { return bounds.of_walls(k); });
+      check(of_grain_[k], reach_[k] + reach_of_walls, [&] { return bounds.of_walls(k); });
     });
     team.share_each(near_.size(), 512, [&](std::size_t p) {
       if (is_left_out(p)) return;
       const auto [first, second] = bounds.pairs[p];
-      check(of_pair(first, second, bounds.margin), reach_[first] + reach_[second],
+      check(approach_of(first, second), reach_[first] + reach_[second],
             [&] { return bounds.of_pair(p); });
     });
-    return enough;
+    return {enough, calm};
   }
 
  private:
   bool is_left_out(std::size_t p) const { return !left_out_.empty() && left_out_[p] != 0; }
-  static Scalar margin(Scalar approach, Scalar whole) {
-    return std::min(whole, whole / 10 + 2 * approach);
+  Scalar approach_of(std::size_t first, std::size_t second) const {
+    return std::max(of_grain_[first], of_grain_[second]);
+  }
+  static Scalar margin(Scalar approach, Scalar whole, Scalar share) {
+    return std::min(whole, share * whole + 2 * approach);
   }
 
   List<Scalar> near_;             // bound of each pair [m]; < 0: its boxes are far apart
   List<Scalar> of_grain_;         // largest of the bounds of its pairs [m]
   List<Scalar> reach_;            // of each grain, see ApproachBounds [m]
   List<unsigned char> left_out_;  // of each pair: whether detection leaves it out; empty: none
+  Scalar share_ = 0;              // of the whole margin, at least
   bool fitted_ = false;
 };
 
