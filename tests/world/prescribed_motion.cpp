@@ -145,6 +145,23 @@ TEST_CASE_TEMPLATE("release() is the inverse of prescribe_motion()", ShapeT, Pol
   CHECK_THROWS_AS(one.simulation.is_prescribed(BodyId(99)), std::invalid_argument);
 }
 
+TEST_CASE_TEMPLATE("release() of a free grain does not place it", ShapeT, Disk<>, Polyhedron<>) {
+  using S = SpaceOf<ShapeT>;
+  using Law = SignoriniCoulomb<double>;
+  World<ShapeT> world(0.02, Materials<Law>(1, Law(0.3)));
+  const ShapeId shape = world.add_shape(regular_shape<ShapeT>(0.02));
+  const BodyId grain = world.add_grain(shape, Pose<S>(S::Vector::Zero()), 1000);
+  world.add_grain(shape, Pose<S>(typename S::Vector(0.002 * S::Vector::UnitX())), 1000);
+  world.allow_overlaps();
+  world.step(h);
+  world.allow_overlaps(false);
+  world.release(grain);
+  CHECK_NOTHROW(world.step(h));
+  world.prescribe_motion(grain);
+  world.release(grain);
+  CHECK_THROWS_AS(world.step(h), std::invalid_argument);
+}
+
 TEST_CASE("bodies of prescribed motion have no contacts with each other") {
   using S = Space<2>;
   using Law = SignoriniCoulomb<double>;
@@ -197,5 +214,26 @@ TEST_CASE("a regularized law pushes grains away from an intruder, and not the in
   CHECK(world.velocity(intruder) == S::Vector(0.5, 0, 0));
   CHECK(world.velocity(fixed) == S::Vector::Zero());
   CHECK(world.velocity(other)[0] > 0.5);
+}
+
+TEST_CASE_TEMPLATE("calls without an effect change no bit of a step with springs", ShapeT, Disk<>,
+                   Ball<>) {
+  using S = SpaceOf<ShapeT>;
+  auto one = scenes::spring_world<ShapeT>();
+  const ShapeId shape = one.add_shape(ShapeT(0.01));
+  const BodyId obstacle = one.add_grain(shape, Pose<S>(S::Vector::Zero()), 1000);
+  const BodyId grain =
+      one.add_grain(shape, Pose<S>(typename S::Vector(0.019 * S::Vector::UnitX())), 1000);
+  one.prescribe_motion(obstacle);
+  one.set_spin(grain, S::Angular::Constant(10));
+  auto two = one;
+  for (int k = 0; k < 50; ++k) {
+    one.step(2e-5);
+    two.prescribe_motion(obstacle);
+    two.release(grain);
+    two.step(2e-5);
+    REQUIRE(one.bodies().velocity[grain.index()] == two.bodies().velocity[grain.index()]);
+  }
+  CHECK(one.velocity(grain).norm() > 0);
 }
 #endif

@@ -45,6 +45,7 @@ class BodyControl : public BodyAccess<ShapeT> {
   /// @throws std::invalid_argument for a body that is not a grain of this simulation
   void prescribe_motion(BodyId grain) {
     assembly_.number_of_grain(grain, "Simulation::prescribe_motion");
+    if (assembly_.bodies().is_prescribed(grain.index())) return;
     assembly_.bodies().prescribe_motion(grain.index());
     assembly_.set_changed();
   }
@@ -56,13 +57,14 @@ class BodyControl : public BodyAccess<ShapeT> {
     assembly_.number_of_grain(grain, "Simulation::release");
     Bodies<S>& bodies = assembly_.bodies();
     const std::size_t i = grain.index();
-    if (bodies.is_prescribed(i)) bodies.set_mass(i, bodies.grain_mass[i], bodies.inertia_body[i]);
+    if (!bodies.is_prescribed(i)) return;
+    bodies.set_mass(i, bodies.grain_mass[i], bodies.inertia_body[i]);
     assembly_.note_placed(i);
   }
   /// Makes a wall move along one axis as a body of this mass, under set_force() and its contacts: a
   /// half-space along its normal, a mesh wall along the first axis of its frame, which its pose turns.
   /// Gravity does not act on walls. With an infinite mass its motion is prescribed again. No effect on a
-  /// wall that has this mass.
+  /// wall that has this mass. Two walls have no contact, whatever their masses: they pass through each other.
   /// @param wall a half-space or a mesh wall; a cylinder cannot have a mass
   /// @param mass [kg], > 0
   /// @throws std::invalid_argument for a body that is neither in walls() nor in mesh_walls(), or a mass
