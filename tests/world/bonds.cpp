@@ -605,8 +605,18 @@ TEST_CASE_TEMPLATE(
   CHECK(near.bond_touching(gap / 10) == 0);
   CHECK(agree(double(near.missed_gap()), double(gap), 1e-2));
   CHECK(says(near, "has bonded nothing: the smallest gap was "));
+  CHECK(near.missed_points() == 0);
+  const std::vector<BodyId> both{near.grain(0), near.grain(1)};
+  CHECK(near.bond_touching(gap / 10, both, 2) == 0);  // too far
+  CHECK(near.missed_points() == 0);
+  CHECK(says(near, "has bonded nothing: the smallest gap was "));
+  CHECK(near.bond_touching(2 * gap, both, 2) == 0);  // one point
+  CHECK(near.missed_points() == 1);
+  CHECK(says(near, "pairs within the gap have at most 1 contact points"));
+  CHECK(!says(near, "smallest gap"));
   CHECK(near.bond_touching(2 * gap) == 1);
   CHECK(near.missed_gap() < 0);
+  CHECK(near.missed_points() == 0);
   CHECK(near.bond_touching(gap / 10) == 0);  // there is one already
   CHECK(!says(near, nothing));
   CHECK(!says(near, weak));

@@ -274,9 +274,15 @@ class Simulation : public BodyControl<ShapeT> {
   std::size_t bond(std::span<const std::pair<BodyId, BodyId>> pairs) requires
       BondingLaw<Law, SpaceOf<ShapeT>>;
   /// The smallest gap of two bodies without a bond in the last call of bond_touching() [m], if there is no bond because
-  /// this call made none; infinite if no pair was within the margin; otherwise < 0. Snapshots do not contain it.
+  /// this call made none, without the pairs of missed_points(); infinite if no other pair was within the margin;
+  /// otherwise < 0. Snapshots do not contain it.
   Scalar missed_gap() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
     return dynamics_.bonds().missed_gap();
+  }
+  /// The most contact points of a pair within the gap that had fewer than `fewest_points` in the last call of
+  /// bond_touching(), if there is no bond because this call made none; otherwise 0. Snapshots do not contain it.
+  std::size_t missed_points() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
+    return dynamics_.bonds().missed_points();
   }
   /// All bonds, sorted by their bodies. The span is valid until bonds are made or break.
   std::span<const Bond<S>> bonds() const requires BondingLaw<Law, SpaceOf<ShapeT>> {
@@ -406,9 +412,8 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// The two functions bond_touching(): bonds pairs of which is_listed(index) is true for both bodies.
   std::size_t bond_near(Scalar gap, const auto& is_listed, std::size_t fewest_points);
-  /// Bonds the pairs with at least `fewest_points` contacts, in the present configuration, and one for which
-  /// keeps(contact) is true.
-  std::size_t add_bonds(const char* function, const auto& keeps, std::size_t fewest_points = 1);
+  /// Bonds the pairs for which keeps(contact points in the present configuration) is true.
+  std::size_t add_bonds(const char* function, const auto& keeps);
 
   /// Detects the contacts at the predicted configuration and assigns their laws.
   /// @param report out: results and times of detection

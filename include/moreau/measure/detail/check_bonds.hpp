@@ -50,7 +50,13 @@ template <class Simulation>
 template <class Simulation>
 [[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation) {
   const double missed = double(simulation.missed_gap());
-  if (std::isinf(missed))
+  if (simulation.missed_points() > 0)
+    found.say(
+        "bond_touching() has bonded nothing: pairs within the gap have at most % contact points, "
+        "fewer than fewest_points. Call it with fewest_points = %, or place the bodies so that "
+        "their faces lie on each other",
+        {double(simulation.missed_points()), double(simulation.missed_points())});
+  else if (std::isinf(missed))
     found.say(
         "bond_touching() has bonded nothing: no two bodies that it may bond were within the margin "
         "of % m. Place them so that they touch before the call",

@@ -82,20 +82,16 @@ class BondList {
 
   /// Bonds pairs that touch and have no bond yet, at the middle of their contact points.
   /// @param touching contacts in the present configuration
-  /// @param keeps    function: contact -> whether its pair is bonded
-  /// @param fewest_points pairs with fewer contact points are not bonded
+  /// @param keeps    function: contact points of a pair -> whether it is bonded
   /// @returns how many bonds were made
   std::size_t add(const Bodies<S>& bodies, const PeriodicCell<S>& cell,
-                  const ContactsOf<Law, S>& touching, const auto& keeps,
-                  std::size_t fewest_points) {
+                  const ContactsOf<Law, S>& touching, const auto& keeps) {
     const std::size_t before = bonds_.size();
     for (std::size_t first = 0, last; first < touching.size(); first = last) {
       last = end_of_pair(touching, first);
       const auto points = std::span(touching.points).subspan(first, last - first);
       const BodyId a = bodies.id[points[0].a], b = bodies.id[points[0].b];
-      if (std::any_of(points.begin(), points.end(), keeps) && points.size() >= fewest_points &&
-          !has(a, b, before))
-        bonds_.push_back(bond_of<S>(points, bodies, cell));
+      if (keeps(points) && !has(a, b, before)) bonds_.push_back(bond_of<S>(points, bodies, cell));
     }
     std::sort(bonds_.begin(), bonds_.end(), [](const Bond<S>& l, const Bond<S>& r) {
       return std::pair(l.a, l.b) < std::pair(r.a, r.b);
@@ -104,7 +100,10 @@ class BondList {
   }
   /// Simulation::missed_gap() [m].
   Scalar missed_gap() const { return missed_gap_; }
-  void note_missed(Scalar gap) { missed_gap_ = gap; }  ///< sets it
+  /// Simulation::missed_points().
+  std::size_t missed_points() const { return missed_points_; }
+  /// Sets both.
+  void note_missed(Scalar gap, std::size_t points) { missed_gap_ = gap, missed_points_ = points; }
   /// Erases the bonds of removed bodies.
   /// @param removed one per body: not 0 if it is removed
   void erase(std::span<const unsigned char> removed) {
@@ -456,6 +455,7 @@ class BondList {
   std::vector<Bond<S>> bonds_;
   std::vector<Breakage> breakages_;
   Scalar missed_gap_ = -1;
+  std::size_t missed_points_ = 0;
   // Of the step.
   List<std::size_t> contact_of_;       // of each bond, or none
   List<BondPlace<S>> places_;          // of each bond

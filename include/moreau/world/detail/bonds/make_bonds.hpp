@@ -44,15 +44,22 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond_near(
   constexpr const char* self = "Simulation::bond_touching";
   require(gap >= 0 && gap <= lengths().margin, self, "gap", gap, "must lie in [0, margin]");
   Scalar nearest = std::numeric_limits<Scalar>::infinity();
-  const std::size_t made = add_bonds(
-      self,
-      [&](const Contact<S>& contact) {
-        if (!is_listed(contact.a) || !is_listed(contact.b)) return false;
-        nearest = std::min(nearest, contact.gap);
-        return contact.gap <= gap;
-      },
-      fewest_points);
-  dynamics_.bonds().note_missed(bonds().empty() ? std::max(nearest, Scalar(0)) : Scalar(-1));
+  std::size_t too_few = 0;
+  const std::size_t made = add_bonds(self, [&](std::span<const Contact<S>> points) {
+    if (!is_listed(points[0].a) || !is_listed(points[0].b)) return false;
+    Scalar least = points[0].gap;
+    for (const Contact<S>& point : points) least = std::min(least, point.gap);
+    if (least <= gap && points.size() < fewest_points) {
+      too_few = std::max(too_few, points.size());
+      return false;
+    }
+    nearest = std::min(nearest, least);
+    return least <= gap;
+  });
+  if (bonds().empty())
+    dynamics_.bonds().note_missed(std::max(nearest, Scalar(0)), too_few);
+  else
+    dynamics_.bonds().note_missed(-1, 0);
   return made;
 }
 
@@ -80,11 +87,11 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
   }
   std::sort(listed.begin(), listed.end());
   std::vector<Bond<S>> before(bonds().begin(), bonds().end());
-  const std::size_t made = add_bonds(self, [&](const Contact<S>& contact) {
+  const std::size_t made = add_bonds(self, [&](std::span<const Contact<S>> points) {
     return std::binary_search(listed.begin(), listed.end(),
-                              ordered(bodies().id[contact.a], bodies().id[contact.b]));
+                              ordered(bodies().id[points[0].a], bodies().id[points[0].b]));
   });
-  dynamics_.bonds().note_missed(-1);
+  dynamics_.bonds().note_missed(-1, 0);
   for (const Bond<S>& one : bonds()) bonded.push_back(ordered(one.a, one.b));
   std::sort(bonded.begin(), bonded.end());
   for (const auto& [a, b] : pairs) {
@@ -100,8 +107,8 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
 }
 
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
-std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(
-    const char* function, const auto& keeps, std::size_t fewest_points) {
+std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const char* function,
+                                                                          const auto& keeps) {
   ContactsOf<Law, S> touching;
   detector_.place(std::span<const Pose<S>>(bodies().pose),
                   [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
@@ -112,7 +119,7 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(
   detector_.detect(lengths(), bodies(), contacts_, touching);
   assembly_.keep_poses(0);  // nothing has moved
   assembly_.require_no_deep_overlap(touching, function, [] {});
-  return dynamics_.bonds().add(bodies(), cell(), touching, keeps, fewest_points);
+  return dynamics_.bonds().add(bodies(), cell(), touching, keeps);
 }
 
 }  // namespace moreau
