@@ -128,6 +128,14 @@ TEST_CASE_TEMPLATE("the energy balance closes while an intruder moves", ShapeT, 
   const double before = energy.imbalance();
   for (int k = 0; k < 50; ++k) energy.add(world, world.step(h), h);
   CHECK(std::abs(energy.imbalance() - before) < 1e-10 * energy.terms().drives);
+
+  // A wall that moves has a kinetic energy as soon as it has a mass.
+  const BodyId wall = scene.walls[0];
+  world.set_velocity(wall, -0.05 * world.bodies().axes(wall.index()).col(0).eval());
+  world.set_wall_mass(wall, 1);
+  energy.rebase(world);
+  for (int k = 0; k < 50; ++k) energy.add(world, world.step(h), h);
+  CHECK(std::abs(energy.imbalance() - before) < 1e-10 * energy.terms().drives);
 }
 
 TEST_CASE_TEMPLATE("release() is the inverse of prescribe_motion()", ShapeT, Polygon<>,

@@ -81,7 +81,8 @@ struct EnergyTerms {
 /// The energy balance of one simulation. If the user sets velocities or poses of bodies with a mass
 /// between two steps, the change appears in the imbalance, or in the work of gravity and forces, unless
 /// the program calls rebase() after the change. After grains were added or removed, and after
-/// prescribe_motion() and release(), call rebase() before the next step:
+/// prescribe_motion() and release(), call rebase() before the next step. The same holds after set_wall_mass() of a
+/// wall that moves, which a PressureLoad calls when it is made: the kinetic energy of a wall counts while the wall has a mass.
 ///
 ///     source.apply(world, h);
 ///     energy.rebase(world);
