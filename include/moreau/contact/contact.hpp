@@ -22,6 +22,7 @@
 #include <tuple>
 #include <utility>
 
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/space.hpp"
@@ -138,14 +139,14 @@ struct Contacts : DetectedContacts<S> {
   }
   /// Sum of the impulses that a body received, world axes [N s].
   Value<typename S::Vector> impulse_on(std::uint32_t body) const {
-    typename S::Vector sum = S::Vector::Zero();
+    detail::DoubleSum<typename S::Vector> sum;
     for (std::size_t c = 0; c < size(); ++c) {
       const Contact<S>& point = points[c];
       if (point.a != body && point.b != body) continue;
       const typename S::Vector impulse = point.frame * this->impulse(c);
       sum += point.b == body ? impulse : typename S::Vector(-impulse);
     }
-    return sum;
+    return sum.value();
   }
   /// Removes points, as DetectedContacts::erase(), with their impulses and variants.
   void erase(const auto& is_gone) {

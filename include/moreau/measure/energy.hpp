@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "moreau/core/components.hpp"
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/core/value.hpp"
@@ -68,13 +69,14 @@ Momentum<S> momentum(const BodyMotion<S>& body,
 /// @param motion_of function: k -> BodyMotion of body k, for k < count
 template <class S, class MotionOf>
 KineticEnergy<S> kinetic_energy(std::size_t count, const MotionOf& motion_of) {
-  KineticEnergy<S> sum;
+  double translation = 0, rotation = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const KineticEnergy<S> part = kinetic_energy<S>(motion_of(k));
-    sum.translation += part.translation;
-    sum.rotation += part.rotation;
+    translation += double(part.translation);
+    rotation += double(part.rotation);
   }
-  return sum;
+  using Scalar = typename S::Scalar;
+  return {Scalar(translation), Scalar(rotation)};
 }
 
 namespace detail {
@@ -107,13 +109,14 @@ KineticEnergy<typename Simulation::S> kinetic_energy(const Simulation& simulatio
 template <class S, class MotionOf>
 Momentum<S> momentum(std::size_t count, const MotionOf& motion_of,
                      const VectorArgument<S>& origin = S::Vector::Zero()) {
-  Momentum<S> sum;
+  detail::DoubleSum<typename S::Vector> linear;
+  detail::DoubleSum<typename S::Angular> angular;
   for (std::size_t k = 0; k < count; ++k) {
     const Momentum<S> part = momentum<S>(motion_of(k), origin);
-    sum.linear += part.linear;
-    sum.angular += part.angular;
+    linear += part.linear;
+    angular += part.angular;
   }
-  return sum;
+  return {linear.value(), angular.value()};
 }
 
 /// Momentum of all grains of a simulation. Grains whose motion is prescribed count too.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/measure/control_volume.hpp"
@@ -52,15 +53,16 @@ Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_vol
   require_control_volume(control_volume, "fabric");
   require_within(cell, control_volume, "fabric");
   Fabric<S> result;
+  detail::DoubleSum<typename S::Matrix> sum;
   for (const PairForce<S>& pair : pairs) {
     if (!is_grain(pair.a) || !is_grain(pair.b)) continue;
     const typename S::Vector point =
         cell.image_in(control_volume, typename S::Vector(position_of(pair.a) + pair.lever_a));
     if (!control_volume.contains(point)) continue;
-    result.tensor += pair.normal * pair.normal.transpose();
+    sum += pair.normal * pair.normal.transpose();
     ++result.pairs;
   }
-  if (result.pairs > 0) result.tensor /= static_cast<typename S::Scalar>(result.pairs);
+  if (result.pairs > 0) result.tensor = sum.over(double(result.pairs));
   return result;
 }
 

@@ -47,22 +47,28 @@ ForceDistribution<T> force_distribution(std::size_t count, const auto& force_of,
   result.count = count;
   result.width = reach / static_cast<T>(bins);
   result.density.assign(bins, T(0));
-  T sum = 0;
+  double sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const T force = force_of(k);
     require(std::isfinite(force) && force >= 0, self, "force", force, "must be finite and >= 0");
-    sum += force;
+    sum += double(force);
   }
   if (!(sum > 0)) return result;
-  result.mean = sum / static_cast<T>(count);
-  const T share = 1 / static_cast<T>(count);
+  result.mean = static_cast<T>(sum / double(count));
+  std::vector<std::size_t> held(bins, 0);
+  std::size_t beyond = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const T place = static_cast<T>(force_of(k)) / result.mean / result.width;
     if (place < static_cast<T>(bins))
-      result.density[static_cast<std::size_t>(place)] += share / result.width;
+      ++held[static_cast<std::size_t>(place)];
     else
-      result.beyond += share;
+      ++beyond;
   }
+  const auto share = [&](std::size_t forces) {
+    return static_cast<T>(double(forces) / double(count));
+  };
+  for (std::size_t k = 0; k < bins; ++k) result.density[k] = share(held[k]) / result.width;
+  result.beyond = share(beyond);
   return result;
 }
 

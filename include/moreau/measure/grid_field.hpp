@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/small_matrix.hpp"
@@ -86,7 +87,7 @@ class GridField {
     }
     Sum& sum = sums_[index];
     sum.value += weight * value;
-    sum.weight += weight;
+    sum.weight += double(weight);
     ++sum.grains;
   }
 
@@ -104,14 +105,15 @@ class GridField {
       share[axis] = (Scalar(k % n) + Scalar(0.5)) / Scalar(n);
       k /= n;
     }
-    const Vector mean = sum.grains > 0 ? Vector(sum.value / sum.weight) : Vector(Vector::Zero());
-    return {box_.lower + share.cwiseProduct(box_.upper - box_.lower), mean, sum.weight, sum.grains};
+    const Vector mean = sum.grains > 0 ? sum.value.over(sum.weight) : Vector(Vector::Zero());
+    return {box_.lower + share.cwiseProduct(box_.upper - box_.lower), mean, Scalar(sum.weight),
+            sum.grains};
   }
 
  private:
   struct Sum {
-    Vector value = Vector::Zero();
-    Scalar weight = 0;
+    detail::DoubleSum<Vector> value;
+    double weight = 0;
     std::size_t grains = 0;
   };
 

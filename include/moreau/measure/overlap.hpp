@@ -23,7 +23,7 @@ struct OverlapStatistics {
   /// Adds the statistics of another set of points, for example of another step.
   void merge(const OverlapStatistics& other) {
     const auto join = [](T a, std::size_t n, T b, std::size_t m) {
-      return n + m == 0 ? T(0) : (a * T(n) + b * T(m)) / T(n + m);
+      return n + m == 0 ? T(0) : T((double(a) * double(n) + double(b) * double(m)) / double(n + m));
     };
     mean = join(mean, points, other.mean, other.points);
     mean_of_pairs = join(mean_of_pairs, pairs, other.mean_of_pairs, other.pairs);
@@ -39,24 +39,25 @@ template <class S>
 OverlapStatistics<typename S::Scalar> overlap_statistics(std::span<const Contact<S>> points) {
   using Scalar = typename S::Scalar;
   OverlapStatistics<Scalar> sum;
+  double mean = 0, mean_of_pairs = 0;
   Scalar deepest = 0;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const Contact<S>& contact = points[c];
     if (contact.gap < 0) {
       ++sum.points;
-      sum.mean -= contact.gap;
+      mean -= double(contact.gap);
       deepest = std::max(deepest, -contact.gap);
     }
     const bool last_of_pair =
         c + 1 == points.size() || points[c + 1].a != contact.a || points[c + 1].b != contact.b;
     if (!last_of_pair || !(deepest > 0)) continue;
     ++sum.pairs;
-    sum.mean_of_pairs += deepest;
+    mean_of_pairs += double(deepest);
     sum.max = std::max(sum.max, deepest);
     deepest = 0;
   }
-  if (sum.points > 0) sum.mean /= Scalar(sum.points);
-  if (sum.pairs > 0) sum.mean_of_pairs /= Scalar(sum.pairs);
+  if (sum.points > 0) sum.mean = Scalar(mean / double(sum.points));
+  if (sum.pairs > 0) sum.mean_of_pairs = Scalar(mean_of_pairs / double(sum.pairs));
   return sum;
 }
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "moreau/core/double_sum.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/measure/control_volume.hpp"
 #include "moreau/measure/solid_fraction.hpp"
 #include "moreau/measure/stress.hpp"
@@ -46,7 +48,8 @@ Region<typename Simulation::S> measure_region(const Simulation& simulation,
   Region<S> region;
   region.stress = contact_stress(simulation, step, control_volume);
   region.solid_fraction = solid_fraction(simulation, control_volume);
-  typename S::Scalar mass = 0;
+  detail::DoubleSum<typename S::Vector> momentum;
+  double mass = 0;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const std::size_t i = simulation.grain(k).index();
     const auto& bodies = simulation.bodies();
@@ -54,11 +57,10 @@ Region<typename Simulation::S> measure_region(const Simulation& simulation,
             simulation.cell().image_in(control_volume, bodies.pose[i].position)))
       continue;
     ++region.grains;
-    mass += bodies.grain_mass[i];
-    for (int axis = 0; axis < S::dim; ++axis)
-      region.velocity[axis] += bodies.grain_mass[i] * bodies.velocity[i][axis];
+    mass += double(bodies.grain_mass[i]);
+    momentum += bodies.grain_mass[i] * linear<S>(bodies.velocity[i]);
   }
-  if (mass > 0) region.velocity /= mass;
+  if (mass > 0) region.velocity = momentum.over(mass);
   return region;
 }
 

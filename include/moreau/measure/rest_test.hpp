@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/world/step_report.hpp"
@@ -128,15 +129,15 @@ class RestTest {
     const auto carries = [&](std::size_t i) {
       return !simulation.is_grain(i) || bodies.is_prescribed(i);
     };
-    Vector carried = Vector::Zero();
+    detail::DoubleSum<Vector> impulses;
     const auto& contacts = simulation.contacts();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& point = contacts.points[c];
       if (carries(point.a) == carries(point.b)) continue;
       const Vector impulse = point.frame * contacts.impulse(c);
-      carried += carries(point.b) ? impulse : Vector(-impulse);
+      impulses += carries(point.b) ? impulse : Vector(-impulse);
     }
-    carried /= static_cast<typename S::Scalar>(step);
+    const Vector carried = impulses.over(step);
     // Each load has the rounding of its scalar, and each sum that of the total.
     const double rounding =
         2 * double(std::numeric_limits<typename S::Scalar>::epsilon()) +

@@ -101,10 +101,10 @@ typename S::Scalar solid_fraction(const Aabb<S>& control_volume, std::size_t gra
                                   const ShapeOf& shape_of, const PoseOf& pose_of,
                                   ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "solid_fraction");
-  typename S::Scalar solid = 0;
+  double solid = 0;
   for (std::size_t k = 0; k < grain_count; ++k)
-    solid += clipped_volume(shape_of(k), pose_of(k), control_volume, workspace);
-  return solid / volume(control_volume);
+    solid += double(clipped_volume(shape_of(k), pose_of(k), control_volume, workspace));
+  return typename S::Scalar(solid / double(volume(control_volume)));
 }
 
 namespace detail {
@@ -162,12 +162,12 @@ template <class Simulation, class S = typename Simulation::S>
 typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& control_volume,
                                   ClipWorkspace<S>& workspace) {
   require_control_volume(control_volume, "solid_fraction");
-  typename S::Scalar solid = 0;
+  double solid = 0;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const auto& shape = simulation.shape_of_grain(k);
     const Pose<S>& pose = simulation.pose(simulation.grain(k));
     const auto add = [&](const Pose<S>& image) {
-      solid += clipped_volume(shape, image, control_volume, workspace);
+      solid += double(clipped_volume(shape, image, control_volume, workspace));
     };
     const Aabb<S> bounds = shape.bounding_box(pose);
     if (simulation.cell().is_lattice())
@@ -175,7 +175,7 @@ typename S::Scalar solid_fraction(const Simulation& simulation, const Aabb<S>& c
     else
       detail::for_images(simulation.cell(), 0, bounds, pose, control_volume, add);
   }
-  return solid / volume(control_volume);
+  return typename S::Scalar(solid / double(volume(control_volume)));
 }
 /// The same with buffers of its own.
 template <class Simulation, class S = typename Simulation::S>

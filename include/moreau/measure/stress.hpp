@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "moreau/contact/contact.hpp"
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/value.hpp"
 #include "moreau/measure/control_volume.hpp"
@@ -46,7 +47,7 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
   require_positive(step, "contact_stress", "step");
   require_control_volume(control_volume, "contact_stress");
   require_within(cell, control_volume, "contact_stress");
-  typename S::Matrix sum = S::Matrix::Zero();
+  detail::DoubleSum<typename S::Matrix> sum;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<S>& contact = contacts.points[c];
     const bool a_is_grain = is_grain(contact.a), b_is_grain = is_grain(contact.b);
@@ -59,7 +60,7 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
     if (b_is_grain) branch -= contact.lever_b;
     sum += branch * (contact.frame * contacts.impulse(c)).transpose();
   }
-  return sum / (step * volume(control_volume));
+  return sum.over(double(step) * double(volume(control_volume)));
 }
 
 /// The same for the grains of a simulation and its last step, also in a periodic cell.

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "moreau/core/double_sum.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/measure/control_volume.hpp"
@@ -99,41 +100,44 @@ class VelocityField {
     const Section extent = section(box_.upper - box_.lower);
     const Section share{(Scalar(column) + Scalar(0.5)) / Scalar(columns_),
                         (Scalar(row) + Scalar(0.5)) / Scalar(rows_)};
-    const Scalar grains = cell.grains > 0 ? Scalar(cell.grains) : Scalar(1);
-    return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity / grains, cell.grains};
+    const double grains = cell.grains > 0 ? double(cell.grains) : 1;
+    return {section(box_.lower) + share.cwiseProduct(extent), cell.velocity.over(grains),
+            cell.grains};
   }
 
   /// Rotation of the field. Each cell that contains grains is a sample of equal weight. r is the
   /// position of the cell relative to the mean position of these cells, and v its velocity relative
   /// to their mean velocity. Zero if the field does not rotate.
   Roll<Scalar> roll() const {
-    Section centre = Section::Zero(), drift = Section::Zero();
-    Scalar count = 0;
+    detail::DoubleSum<Section> positions, velocities;
+    double count = 0;
     for_each([&](const Sample& s) {
-      centre += s.position;
-      drift += s.velocity;
+      positions += s.position;
+      velocities += s.velocity;
       count += 1;
     });
     if (count == 0) return {};
-    Scalar turning = 0, opposite = 0, arms = 0, speeds = 0;
+    const Section centre = positions.over(count), drift = velocities.over(count);
+    double turning = 0, opposite = 0, arms = 0, speeds = 0;
     for_each([&](const Sample& s) {
-      const Section r = s.position - centre / count, v = s.velocity - drift / count;
-      const Scalar part = r.x() * v.y() - r.y() * v.x();
+      const Section r = s.position - centre, v = s.velocity - drift;
+      const double part = double(r.x() * v.y() - r.y() * v.x());
       turning += part;
-      opposite += part < 0 ? -part : Scalar(0);
-      arms += r.squaredNorm();
-      speeds += v.squaredNorm();
+      opposite += part < 0 ? -part : 0;
+      arms += double(r.squaredNorm());
+      speeds += double(v.squaredNorm());
     });
     if (!(arms > 0) || !(speeds > 0)) return {};
-    const Scalar all = turning + 2 * opposite;
-    const Scalar with = turning < 0 ? opposite : all - opposite;
-    return {turning / arms, turning / std::sqrt(arms * speeds), all > 0 ? with / all : Scalar(0)};
+    const double all = turning + 2 * opposite;
+    const double with = turning < 0 ? opposite : all - opposite;
+    return {Scalar(turning / arms), Scalar(turning / std::sqrt(arms * speeds)),
+            Scalar(all > 0 ? with / all : 0)};
   }
 
  private:
   using Section = Eigen::Matrix<Scalar, 2, 1>;
   struct Cell {
-    Section velocity = Section::Zero();
+    detail::DoubleSum<Section> velocity;
     std::size_t grains = 0;
   };
 
