@@ -122,6 +122,20 @@ TEST_CASE("options of a rest test") {
                     "RestTest::add: step = 0.002 must be the step of the report");
 }
 
+TEST_CASE_TEMPLATE("the free surface of a heap that a grain has left", ShapeT, Disk<>, Ball<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Simulation<ShapeT, SignoriniCoulomb<>> world(0.02, SignoriniCoulomb<>(0.5));
+  const ShapeId shape = world.add_shape(ShapeT(0.01));
+  for (const double x : {-1e30, 0.0, 0.001, 3e25})
+    world.add_grain(shape, Pose<S>(Vector(x * Vector::UnitX())), 1000);
+  const std::vector<Vector> surface = free_surface(world, 0.05);
+  REQUIRE(surface.size() == 3);
+  CHECK(surface[0][0] == doctest::Approx(-1e30));
+  CHECK(surface[1][0] == doctest::Approx(0.025));
+  CHECK(surface[2][0] == doctest::Approx(3e25));
+}
+
 TEST_CASE_TEMPLATE("the slope of a heap", ShapeT, Disk<>, Ball<>) {
   using S = SpaceOf<ShapeT>;
   using Vector = typename S::Vector;

@@ -26,20 +26,22 @@ template <class Simulation>
 std::vector<typename Simulation::Vector> free_surface(const Simulation& simulation,
                                                       typename Simulation::Scalar width) {
   using Vector = typename Simulation::Vector;
+  using Scalar = typename Simulation::Scalar;
   constexpr int up = Simulation::S::dim - 1;
   require_positive(width, "free_surface", "width");
-  std::map<std::array<long, std::size_t(up)>, Vector> columns;
+  // By their whole numbers, which for a lost grain can be larger than an integer holds.
+  std::map<std::array<Scalar, std::size_t(up)>, Vector> columns;
   for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
     const std::size_t i = simulation.grain(k).index();
     if (simulation.bodies().is_prescribed(i)) continue;
     const auto& pose = simulation.bodies().pose[i];
     const Vector center = simulation.cell().wrap(pose.position);
-    std::array<long, std::size_t(up)> column{};
+    std::array<Scalar, std::size_t(up)> column{};
     Vector top;
     for (int axis = 0; axis < up; ++axis) {
-      const auto number = std::floor(center[axis] / width);
-      column[std::size_t(axis)] = long(number);
-      top[axis] = (number + typename Simulation::Scalar(0.5)) * width;
+      const Scalar number = std::floor(center[axis] / width);
+      column[std::size_t(axis)] = number;
+      top[axis] = (number + Scalar(0.5)) * width;
     }
     top[up] = simulation.shape_of_grain(k).bounding_box(pose).upper[up];
     const auto [place, is_new] = columns.try_emplace(column, top);

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -117,11 +118,13 @@ void for_images(const PeriodicCell<S>& cell, int axis, const Aabb<S>& bounds, co
   if (axis == S::dim) return use(pose);
   if (!cell.is_periodic(axis)) return for_images(cell, axis + 1, bounds, pose, control_volume, use);
   const typename S::Scalar length = cell.length()[axis];
-  const auto first = std::ceil((control_volume.lower[axis] - bounds.upper[axis]) / length);
-  const auto last = std::floor((control_volume.upper[axis] - bounds.lower[axis]) / length);
-  for (auto k = first; k <= last; ++k) {
+  using Scalar = typename S::Scalar;
+  const Scalar first = std::ceil((control_volume.lower[axis] - bounds.upper[axis]) / length);
+  const Scalar last = std::floor((control_volume.upper[axis] - bounds.lower[axis]) / length);
+  // The sum of a large Scalar and 1 can be the same Scalar.
+  for (std::size_t k = 0; first <= last && Scalar(k) <= last - first; ++k) {
     Pose<S> image = pose;
-    image.position[axis] += k * length;
+    image.position[axis] += (first + Scalar(k)) * length;
     for_images(cell, axis + 1, bounds, image, control_volume, use);
   }
 }
@@ -140,14 +143,19 @@ void for_images_in_lattice(const PeriodicCell<S>& cell, const Aabb<S>& bounds, c
   const Vector first = (middle - spread).array().ceil(), last = (middle + spread).array().floor(),
                counts = (last - first).array() + 1;
   if (!(counts.minCoeff() >= 1)) return;
-  const int all = int(counts.prod());
-  for (int code = 0; code < all; ++code) {
+  // An image after the other, counted along each vector of the cell.
+  std::array<std::size_t, S::dim> at{};
+  for (int axis = 0; axis < S::dim;) {
     Vector n;
-    for (int axis = 0, rest = code; axis < S::dim; rest /= int(counts[axis]), ++axis)
-      n[axis] = first[axis] + typename S::Scalar(rest % int(counts[axis]));
+    for (int k = 0; k < S::dim; ++k) n[k] = first[k] + typename S::Scalar(at[std::size_t(k)]);
     const Vector shift = cell.shift(n);
     const Aabb<S> moved{bounds.lower + shift, bounds.upper + shift};
     if (moved.overlaps(control_volume)) use(Pose<S>(pose.position + shift, pose.rotation));
+    for (axis = 0; axis < S::dim; ++axis) {
+      std::size_t& place = at[std::size_t(axis)];
+      if (typename S::Scalar(++place) < counts[axis]) break;
+      place = 0;
+    }
   }
 }
 
