@@ -103,6 +103,7 @@ TEST_CASE_TEMPLATE("forces that cancel to rounding are no load, others are", Sha
 }
 
 TEST_CASE("options of a rest test") {
+  CHECK(RestTest().reason() == "no step was added");
   CHECK_THROWS_WITH(RestTest({.hysteresis = 0.5}),
                     "RestTest: options.hysteresis = 0.5 must be finite and >= 1");
   CHECK_THROWS_AS(RestTest({.time = -1}), std::invalid_argument);

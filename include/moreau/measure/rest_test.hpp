@@ -86,12 +86,15 @@ class RestTest {
   }  ///< of the grains after the last step [m/s], see RestOptions
   /// Part of the weight that walls and obstacles did not carry in the last step [-].
   double missing_load() const { return missing_load_; }
-  /// Why the packing is not at rest, as a sentence with numbers; empty if it is.
+  /// Why the packing is not at rest, as a sentence with numbers; empty if it is. It names the first that holds of: no step
+  /// was added, the last step was not solved, the time is too short, the grains are too fast, the load is not carried.
   std::string reason() const {
     std::ostringstream text;
     text.precision(3);
     if (is_at_rest()) return {};
-    if (!solved_)
+    if (!(limit_ > 0))
+      text << "no step was added";
+    else if (!solved_)
       text << "the last step was not solved";
     else if (time_ > 0)
       text << "at rest for " << time_ << " s of " << options_.time << " s";

@@ -16,9 +16,11 @@ namespace moreau {
 struct StepReport {
   double step = 0;  ///< length h of the step [s]
   /// Pairs of grains in the list of the broad phase, without walls: the boxes of the grains were closer
-  /// than margin + 2 skin along every axis when the list was made.
+  /// than margin + 2 skin along every axis when the list was made. The box of a grain without neighbours that has left
+  /// its box before is longer along its motion.
   std::size_t candidate_pairs = 0;
-  /// Pairs with at least one contact point that was detected, or with a bond; walls included.
+  /// Pairs with at least one contact point that was detected, or with a bond; walls included. Also a pair of which all
+  /// points lie at edges between obstacles that end flush, and are not among the contacts, counts.
   std::size_t pairs = 0;
   std::size_t points = 0;  ///< contact points
   /// Contact points whose key (bodies, parts and features) a contact point of the step before had, also
