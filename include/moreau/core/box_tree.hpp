@@ -19,7 +19,11 @@ template <EuclideanSpace S>
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::span<const Aabb<S>> boxes) : order_(boxes.size()) {
+  explicit BoxTree(std::span<const Aabb<S>> boxes) { rebuild(boxes); }
+  /// Replaces the boxes; keeps the memory.
+  void rebuild(std::span<const Aabb<S>> boxes) {
+    nodes_.clear();
+    order_.resize(boxes.size());
     std::iota(order_.begin(), order_.end(), 0U);
     if (!boxes.empty()) build(boxes, 0, std::uint32_t(boxes.size()));
   }

@@ -12,6 +12,8 @@
 #include <tuple>
 #include <vector>
 
+#include "moreau/core/aabb.hpp"
+#include "moreau/core/box_tree.hpp"
 #include "moreau/core/erase_at.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/merge_join.hpp"
@@ -156,6 +158,7 @@ class PairCaches<ShapeT> {
   void renew(const std::vector<IndexPair>& pairs, const std::vector<IndexPair>& old_pairs,
              const std::vector<Vector>& shifts, const auto& grains, Scalar reach) {
     inflate_boxes(grains, reach);
+    plant_trees(pairs);
     old_parts_.swap(parts_);
     old_ends_.swap(ends_);
     old_.swap(caches_);
@@ -280,8 +283,45 @@ class PairCaches<ShapeT> {
       box_ends_.push_back(boxes_.size());
     }
   }
-  /// Lists the near parts of a pair. Parts of a that are far from all of b cost one test each.
+  /// Makes trees over the boxes of grains with many parts and many pairs: without a tree each of these pairs tests all parts.
+  void plant_trees(const std::vector<IndexPair>& pairs) {
+    constexpr std::size_t many = 64;
+    tree_of_.assign(box_ends_.size(), 0);
+    for (const IndexPair& pair : pairs) ++tree_of_[pair.first], ++tree_of_[pair.second];
+    std::uint32_t count = 0;
+    for (std::size_t k = 0; k < tree_of_.size(); ++k) {
+      const std::size_t from = begin(box_ends_, k), parts = box_ends_[k] - from;
+      const bool has_tree = tree_of_[k] >= many && parts >= many;
+      tree_of_[k] = has_tree ? ++count : 0;
+      if (!has_tree) continue;
+      if (trees_.size() < count) trees_.emplace_back();
+      trees_[count - 1].rebuild(std::span<const Aabb<S>>(boxes_.data() + from, parts));
+    }
+  }
+  /// Lists the near parts of a pair.
   void list_parts(const IndexPair& pair, const Vector& shift) {
+    const std::size_t first = begin(box_ends_, pair.first), second = begin(box_ends_, pair.second);
+    const std::size_t count_a = box_ends_[pair.first] - first,
+                      count_b = box_ends_[pair.second] - second;
+    const std::uint32_t of_a = tree_of_[pair.first], of_b = tree_of_[pair.second];
+    if (of_a == 0 && of_b == 0) return compare_parts(pair, shift);
+    const bool in_a = of_b == 0 || (of_a != 0 && count_a > count_b);
+    const BoxTree<S>& tree = trees_[(in_a ? of_a : of_b) - 1];
+    const std::size_t found = parts_.size();
+    for (std::size_t k = 0; k < (in_a ? count_b : count_a); ++k) {
+      const Aabb<S> box = in_a ? boxes_[second + k].moved(shift) : boxes_[first + k].moved(-shift);
+      tree.query([&](const Aabb<S>& around) { return around.overlaps(box); },
+                 [&](std::uint32_t place) {
+                   const std::uint32_t part = tree.order()[place];
+                   if (!boxes_[(in_a ? first : second) + part].overlaps(box)) return;
+                   parts_.push_back(in_a ? IndexPair{part, std::uint32_t(k)}
+                                         : IndexPair{std::uint32_t(k), part});
+                 });
+    }
+    std::sort(parts_.begin() + std::ptrdiff_t(found), parts_.end());
+  }
+  /// Lists the near parts of a pair without a tree. Parts of a that are far from all of b cost one test each.
+  void compare_parts(const IndexPair& pair, const Vector& shift) {
     const std::size_t first = begin(box_ends_, pair.first), second = begin(box_ends_, pair.second);
     Aabb<S> around;
     for (std::size_t j = second; j < box_ends_[pair.second]; ++j) {
@@ -302,6 +342,8 @@ class PairCaches<ShapeT> {
   List<PairCache<S>> caches_, old_;           // one per element of parts_
   List<Aabb<S>> boxes_;                       // of the parts of all grains, inflated
   List<std::uint64_t> box_ends_;              // of each grain: one past its last element of boxes_
+  std::vector<BoxTree<S>> trees_;             // over boxes of grains
+  List<std::uint32_t> tree_of_;               // of each grain: 1 + place of its tree, or 0
   List<unsigned char> gone_;
 };
 
