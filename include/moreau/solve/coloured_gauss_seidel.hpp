@@ -9,6 +9,8 @@
 //    with the same beta;
 //  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can be an unstable fixed
 //    point of the sweeps, and the iteration then cycles around it for thousands of sweeps;
+//  - jumps where impulses move along a line by the same amount in each sweep, under laws with couples or an attraction
+//    (detail/line_jumps.hpp);
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
 //    stopping test visits all contacts and updates the set, and so do sweeps 1, 2, 4, 8, .. of the first interval.
 //
@@ -37,6 +39,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/core/error.hpp"
 #include "moreau/core/list.hpp"
 #include "moreau/core/serialize.hpp"
@@ -45,6 +48,7 @@
 #include "moreau/solve/coloured/coloured_sweeps.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/island_solver.hpp"
+#include "moreau/solve/detail/line_jumps.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -241,6 +245,7 @@ class ColouredGaussSeidel {
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
+    detail::LineJumps line;
     // In a closed row of rigid bonds impulses can go on changing without any effect on the motion. The changes at other contacts
     // with an attraction are relative to the attraction, but the residual is relative to their load.
     bool always = false;
@@ -263,6 +268,12 @@ class ColouredGaussSeidel {
         expected_change = report.quad_dv * options_.tolerance / report.residual;
       }
       if (report.converged) break;
+      if constexpr (HasLines<Law, typename Operator::Space>) {
+        if (accelerate && !early && follow_line(line, change, sweeps)) {
+          least = std::min(least, change);
+          continue;
+        }
+      }
       if (change < improvement * least) {
         least = change;
         saved_at = report.sweeps;
@@ -289,6 +300,9 @@ class ColouredGaussSeidel {
     return report;
   }
 
+  /// Whether detail/line_jumps.hpp is used. Of random problems under Coulomb's law alone it solved no more.
+  template <class Law, class S>
+  static constexpr bool HasLines = RollingLaw<Law, S> || AttractiveLaw<Law, S>;
   /// A first stopping test comes after a quarter of the first interval, for steps in which little has
   /// changed. It must meet this share of the tolerance: a solution that only just meets the tolerance is
   /// a worse start for the next step, which then takes more sweeps than were saved.
@@ -303,6 +317,28 @@ class ColouredGaussSeidel {
   /// Sweeps without an improvement after which plain sweeps replace accelerated ones, or accelerated sweeps plain ones: with
   /// couples accelerated sweeps can cycle for 20,000 sweeps around a solution that 8,000 plain sweeps reach.
   static constexpr int most_stalled = 5000;
+
+  /// Follows the line on which impulses move, after a stopping test.
+  /// @returns whether it has replaced the impulses
+  template <class Sweeps>
+  MOREAU_COLD bool follow_line(detail::LineJumps& line, double change, Sweeps& sweeps) const {
+    switch (line.after(change, sweeps.is_mixing())) {
+      case detail::LineJumps::Next::nothing:
+        return false;
+      case detail::LineJumps::Next::mark:
+        sweeps.mark();
+        return false;
+      case detail::LineJumps::Next::jump:
+        sweeps.save(team_);
+        if (sweeps.jump(line.factor(), team_)) return true;
+        line.end();
+        return false;
+      case detail::LineJumps::Next::undo:
+        sweeps.restore(team_);
+        return true;
+    }
+    return false;
+  }
 
   /// The sweeps up to the next stopping test. In the first interval, sweeps 1, 2, 4, 8, .. update
   /// the active set.

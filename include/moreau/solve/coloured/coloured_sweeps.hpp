@@ -3,6 +3,7 @@
 // order of the groups, acceleration.hpp the start of each sweep.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -102,6 +103,40 @@ class ColouredSweeps {
     recompute_velocities(team);
     kernel_.velocity().forget_change();
     acceleration_.restart();
+  }
+  bool is_mixing() const { return acceleration_.is_mixing(); }  ///< whether impulses are mixed
+  /// Keeps the impulses for jump().
+  MOREAU_COLD void mark() {
+    marked_.clear();
+    for (const auto& point : kernel_.points())
+      for (std::size_t d = 0; d < Kernel::rows; ++d) marked_.push_back(point.impulse[d]);
+  }
+  /// Moves the impulses on by a multiple of their way since mark(); the next sweep has no acceleration.
+  /// @returns false, and moves nothing, if the impulses have moved by as much as they were at mark()
+  MOREAU_COLD bool jump(double factor, const Team& team) {
+    double sums[] = {0, 0};  // of the squares of the way, and of the impulses at mark()
+    std::size_t i = 0;
+    for (const auto& point : kernel_.points())
+      for (std::size_t d = 0; d < Kernel::rows; ++d, ++i)
+        for (int l = 0; l < Kernel::Lanes::lanes; ++l) {
+          const double from = double(marked_[i][l]), way = double(point.impulse[d][l]) - from;
+          sums[0] += way * way;
+          sums[1] += from * from;
+        }
+    if (shared_) shared_->sum(sums);
+    const double most = std::sqrt(sums[1] / sums[0]) - 1;
+    if (!(most > 0)) return false;
+    i = 0;
+    for (auto& point : kernel_.points())
+      for (std::size_t d = 0; d < Kernel::rows; ++d, ++i) {
+        point.impulse[d] +=
+            Kernel::Lanes::broadcast(T(std::min(factor, most))) * (point.impulse[d] - marked_[i]);
+        point.before[d] = point.impulse[d];
+      }
+    recompute_velocities(team);
+    kernel_.velocity().forget_change();
+    acceleration_.restart();
+    return true;
   }
   /// Whether the sweeps that follow are accelerated.
   void accelerate(bool enabled) { acceleration_ = Acceleration<T>(enabled); }
@@ -233,7 +268,7 @@ class ColouredSweeps {
   ImpulseMixing<Kernel> mixing_;
   int mixed_sweeps_ = 0;           // since mixing started
   std::size_t active_points_ = 0;  // packs of them
-  List<typename Kernel::Values> saved_;
+  List<typename Kernel::Values> saved_, marked_;
 };
 
 }  // namespace moreau::detail
