@@ -143,9 +143,10 @@ class ColouredGaussSeidel {
     islands.start(problem, impulses, options_.velocity_tolerance);
     if (islands.empty()) return sweep(problem, impulses, workspace);
     SolveReport report;
-    const bool solved = islands.all_meet_tolerance();
+    bool solved = islands.all_meet_tolerance();
     if (solved) judge(problem, impulses, true, workspace, report);
     if (solved && report.converged) return report;
+    solved = solved && islands.all_meet_tolerance();  // not where bodies are squeezed
     islands.save(impulses);
     report = sweep(problem, impulses, workspace);
     if (solved && report.converged) {  // the sweeps have refined a solution
@@ -191,6 +192,7 @@ class ColouredGaussSeidel {
     else
       detail::set_impulses<Operator>(problem.delassus, known);
     islands.move(problem.delassus);
+    islands.add_approach(problem);
     if (sweeps.is_packed()) {
       sweeps.take_velocities(problem.delassus);
       sweeps.measure_residual(problem, known, report, team_);

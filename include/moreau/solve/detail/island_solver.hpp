@@ -157,6 +157,24 @@ class IslandSolver {
         changes[i * std::size_t(Operator::width) + std::size_t(k)] = motion_[i][k];
     }
   }
+  /// After move(): bodies can be squeezed, as between a fixed and a driven wall. Their impulses grow, and change their
+  /// motion no more, so that its error is small. The approach that remains is an error, too, relative to the largest velocity
+  /// with which contacts close or that impulses or loads give to a body of the island.
+  MOREAU_INLINED void add_approach(const Problem& problem) {
+    const Operator& op = problem.delassus;
+    for (Small& one : small_) {
+      if (!(one.error <= accepted * tolerance_)) continue;
+      double approach = 0, scale = 0;
+      for (const std::uint32_t c : islands_->contacts(one.island)) {
+        approach = std::max(approach, -double(op.normal_velocity(c)));
+        scale = std::max(scale, -double(op.free_velocity(c)[0]));
+        for (const std::uint32_t body : op.bodies(c))
+          scale = std::max({scale, double(op.velocity_change(body).template head<dim>().norm()),
+                            problem.least_scale(body, tolerance_) / least_share});
+      }
+      if (approach > accepted * tolerance_ * scale) one.error = scale > 0 ? approach / scale : 1;
+    }
+  }
   /// Where the impulses are those of the sweeps after all: their errors, and no motion.
   MOREAU_INLINED void roll_back() {
     std::fill(moved_.begin(), moved_.end(), 0);
@@ -176,6 +194,7 @@ class IslandSolver {
 
  private:
   static constexpr bool couples = Rolls<Law>;
+  static constexpr int dim = Operator::Space::dim;
   using Newton = IslandNewton<typename Operator::Space, couples>;
   struct Small {
     std::size_t island;
