@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "moreau/law/compliant.hpp"
+#include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
@@ -179,6 +180,41 @@ TEST_CASE("check: an overlap that is older than the step") {
   world.set_pose(grain, Pose<Space<3>>({0, 0, 0.009}));
   world.set_velocity(grain, {0, 0, 0});
   CHECK(one_contains(run(world, 1e-4, 2), "it is older than this step"));
+}
+
+TEST_CASE_TEMPLATE("check: overlaps of springs are not those of a contact problem", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (Disk<float>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Springs = LinearSpringDashpot<T>;
+  constexpr T radius = T(0.01), size = 2 * radius;
+  const Vector up = Vector::Unit(S::dim - 1);
+  /// A grain above a floor.
+  const auto grain_at = [&](T height, T stiffness) {
+    Simulation<ShapeT, Springs> world(
+        size, Materials<Springs>(1, Springs(stiffness, stiffness / 2, T(0.4), T(0.5))));
+    world.add_grain(world.add_shape(ShapeT(radius)), Pose<S>(Vector(height * up)), 1000);
+    world.add_wall(up, Vector::Zero());
+    return world;
+  };
+  const T mass = grain_at(0, 1).bodies().grain_mass[0], sunk = T(0.02) * size;
+  auto soft = grain_at(radius - sunk, mass * T(9.81) / sunk);
+  soft.set_gravity(T(-9.81) * up);
+  soft.allow_overlaps();
+  CHECK(one_contains(check(soft, soft.step(T(1e-5))), "at the start"));
+  const std::vector<std::string> said = check(soft, soft.step(T(1e-5)));
+  CHECK(said.size() == 1);
+  CHECK(one_contains(said, "the springs of the law are as soft. Use stiffer springs"));
+
+  auto fast = grain_at(radius + T(1.5e-3), mass * T(1e5));
+  fast.set_velocity(fast.grain(0), Vector(T(-10) * up));
+  fast.step(T(1e-4));
+  const StepReport report = fast.step(T(1e-4));
+  const double motion = 10 * 1e-4 / (fast.tolerances().margin * double(size));
+  CHECK(report.approach == doctest::Approx(motion).epsilon(1e-5));
+  CHECK(one_contains(check(fast, report), "it arose in this step"));
+  CHECK(one_contains(check(fast, report), "step too long"));
 }
 
 TEST_CASE("check: an obstacle is not judged by its density or size") {

@@ -82,7 +82,12 @@ template <class Simulation>
   const double size = double(simulation.grain_size());
   // After later steps the time is longer than the step, however much longer this one is than those before.
   const bool is_first = double(simulation.time()) <= (1 + 1e-9) * report.step;
-  detail::check_report(found, report, size, {simulation.tolerances().margin * size, is_first});
+  constexpr const char* older = requires {
+    simulation.contact_problem();
+  }
+  ? detail::older_overlap : detail::overlap_of_springs;
+  detail::check_report(found, report, size,
+                       {simulation.tolerances().margin * size, is_first, older});
   detail::check_units(found, simulation, report.step);
   detail::check_motion(found, simulation, report);
   detail::check_creep(found, simulation, report);

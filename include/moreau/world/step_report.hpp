@@ -29,7 +29,7 @@ struct StepReport {
   /// Largest approach velocity of the contacts that were found, before the step, x step / margin [-].
   /// Above 1, surfaces can come within the margin and overlap in one step. The speed that a body gets in a step counts
   /// in the step in which it has a contact. Two bodies that pass through each other between two detections have no
-  /// contact, and do not count. 0 under a regularized law.
+  /// contact, and do not count. Under a regularized law the velocities are those at half of the step.
   double approach = 0;
   std::size_t overlapping = 0;  ///< points with gap < 0 as detected
   double max_overlap = 0;       ///< deepest point as detected, >= 0 [m]

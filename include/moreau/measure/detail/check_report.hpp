@@ -61,16 +61,28 @@ inline double round_down(double x) {
   return (x >= 5 * power ? 5 : x >= 2 * power ? 2 : 1) * power;
 }
 
+/// Of an overlap that is older than the step.
+inline constexpr const char* older_overlap =
+    "overlap of % m of the bodies % and %, % of the grain size: it is older than this step, in "
+    "which no surfaces approach as far. Use a shorter step, stiffer contacts if they are "
+    "compliant, and add no grains inside others";
+/// The same under a regularized law.
+inline constexpr const char* overlap_of_springs =
+    "overlap of % m of the bodies % and %, % of the grain size: the springs of the law are as "
+    "soft. Use stiffer springs and a shorter step, and add no grains inside others";
+
 /// What the advice on an overlap depends on, besides the report.
 struct OverlapScene {
-  double margin = 0;      ///< of detection [m]
-  bool is_first = false;  ///< whether no step was made before
+  double margin = 0;                  ///< of detection [m]
+  bool is_first = false;              ///< whether no step was made before
+  const char* older = older_overlap;  ///< the sentence about an overlap that is older than the step
 };
 
 /// Names the deepest overlap, with the advice for its cause:
 ///   - in the first step it was there at the start;
 ///   - if two surfaces that approach move as far in the step, it arose in the step: an impact;
-///   - else it arose before, in a step that was too long, with a body that was added, or by compliance.
+///   - else it arose before, in a step that was too long, with a body that was added, or by compliance, as is common
+///     under a regularized law.
 [[gnu::cold]] inline void check_overlap(Findings& found, const StepReport& report, double size,
                                         const OverlapScene& scene) {
   if (!(report.max_overlap > 0.01 * size)) return;
@@ -89,11 +101,7 @@ struct OverlapScene {
         "which surfaces approach by % m. Use a shorter step: half the step halves the overlap",
         {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
          report.max_overlap / size, motion});
-  found.say(
-      "overlap of % m of the bodies % and %, % of the grain size: it is older than this step, in "
-      "which no surfaces approach as far. Use a shorter step, stiffer contacts if they are "
-      "compliant, and add no grains inside others",
-      numbers);
+  found.say(scene.older, numbers);
 }
 
 /// What the solver did not reach.

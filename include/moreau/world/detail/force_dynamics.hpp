@@ -6,6 +6,7 @@
 //   3. advance the velocities to the end of the step
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <tuple>
@@ -54,7 +55,7 @@ class ForceDynamics {
   /// Evaluates the forces of the contacts in the present configuration; writes force x step to the
   /// impulses of the contacts.
   /// @param elapsed time since the last evaluation [s], in which tangential springs stretched
-  /// @param report  out: warm_started; dissipation and friction are added to
+  /// @param report  out: warm_started, approach; dissipation and friction are added to
   void evaluate(const StepContext<S, Law>& context, Scalar elapsed, StepReport& report) {
     const Bodies<S>& bodies = context.bodies;
     ContactsOf<Law, S>& contacts = context.contacts;
@@ -69,11 +70,13 @@ class ForceDynamics {
       find_effective_masses<S>(bodies, std::span(contacts.points).subspan(first, last - first),
                                std::span(masses_).subspan(first, last - first));
     }
+    Scalar approach = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       ContactMotion<S> motion = motion_of(bodies, contact, masses_[c], elapsed);
       if (!context.chords.empty())
         motion.velocity += transposed_product(contact.frame, context.chords[c]);
+      approach = std::max(approach, -motion.velocity[0]);
       const Vector force = context.materials.laws()[contact.law].force(motion, memory_[c]);
       contacts.impulses[c] = context.step * force;
       report.dissipation -= double(contacts.impulses[c].dot(motion.velocity));
@@ -81,6 +84,7 @@ class ForceDynamics {
           motion.velocity.template tail<S::dim - 1>()));
       apply(contact, contact.frame * force);
     }
+    report.approach = double(approach * context.step / context.margin);
   }
 
   void advance(const StepContext<S, Law>& context) {
