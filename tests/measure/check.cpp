@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -535,4 +536,27 @@ TEST_CASE_TEMPLATE("check: a lost grain is named, and one beyond what the scalar
       CHECK(one_contains(all, "from the origin, where positions are known") == (distance > 1e11));
       CHECK(all.size() == std::size_t((distance > (count < 10 ? 200 : 9)) + (distance > 1e11)));
     }
+}
+
+TEST_CASE_TEMPLATE("check: a grain that has drifted through many periodic cells", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (Disk<float>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  constexpr T size = T(0.02), cell = T(0.25);
+  for (const double share :
+       {0.5, 4.0}) {  // of the distance at which a thousandth of the grain size is lost
+    Simulation<ShapeT, Coulomb> world(size, Materials<Coulomb>(1, Coulomb(T(0.5))));
+    const ShapeId shape = world.add_shape(ShapeT(size / 2));
+    world.set_periodic(0, 0, cell);
+    world.add_grain(shape, Pose<S>(Vector(Vector::Zero())), 2700);
+    const double limit = 1e-3 * double(size) / double(std::numeric_limits<T>::epsilon());
+    const T away = cell * T(std::round(share * limit / double(cell)));
+    world.add_grain(shape, Pose<S>(Vector((cell / 2 + away) * Vector::UnitX())), 2700);
+    const auto all = check(world, world.step(T(1e-4)));
+    CHECK(all.size() == (share > 1 ? 1 : 0));
+    if (share > 1) CHECK(one_contains(all, "move grains by whole periodic cells (set_pose)"));
+    if (share > 1) CHECK(one_contains(all, "grain 1 is "));
+  }
 }

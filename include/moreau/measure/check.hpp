@@ -74,7 +74,7 @@ class SentencesOnce {
 ///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
 ///            will ever move
 ///          - a grain is lost: far from all others, or so far from the origin that the scalar holds its
-///            position only to more than a thousandth of the grain size
+///            position only to more than a thousandth of the grain size, also after it has drifted through many periodic cells
 template <class Simulation>
 [[nodiscard]] std::vector<std::string> check(const Simulation& simulation,
                                              const StepReport& report) {

@@ -29,9 +29,10 @@ template <class Simulation>
   using Vector = typename Simulation::Vector;
   const std::size_t count = simulation.grain_count();
   if (count == 0) return;
-  const auto place = [&](std::size_t k) -> Vector {
-    return simulation.cell().wrap(simulation.bodies().pose[simulation.grain(k).index()].position);
+  const auto position = [&](std::size_t k) -> const Vector& {
+    return simulation.bodies().pose[simulation.grain(k).index()].position;
   };
+  const auto place = [&](std::size_t k) -> Vector { return simulation.cell().wrap(position(k)); };
   const Scalar size = simulation.grain_size();
   std::vector<Scalar> values(count);
   Vector middle;
@@ -39,27 +40,29 @@ template <class Simulation>
     for (std::size_t k = 0; k < count; ++k) values[k] = place(k)[axis];
     middle[axis] = lower_median(values);
   }
-  std::size_t farthest = 0;
-  Scalar most = -1;
+  std::size_t farthest = 0, outermost = 0;
+  Scalar most = -1, out = 0;
   for (std::size_t k = 0; k < count; ++k) {
     values[k] = Vector(place(k) - middle).cwiseAbs().maxCoeff();
     if (values[k] > most) most = values[k], farthest = k;
+    // Poses are stored as they are, not wrapped into the cell.
+    const Scalar away = position(k).cwiseAbs().maxCoeff();
+    if (away > out) out = away, outermost = k;
   }
   const Scalar spread = lower_median(values);
-  const auto body = double(simulation.grain(farthest).index());
   if (most > 100 * spread && most > Scalar(count < 10 ? 10000 : 100) * size)
     found.say(
         "grain % is lost: % m from the middle of the grains, half of which lie within % m. Remove "
         "it",
-        {body, double(most), double(spread)});
-  const Scalar out = place(farthest).cwiseAbs().maxCoeff();
+        {double(simulation.grain(farthest).index()), double(most), double(spread)});
   const Scalar grid = out * std::numeric_limits<Scalar>::epsilon();
   if (grid > Scalar(1e-3) * size)
     found.say(
         "grain % is % m from the origin, where positions are known to % m only, % of the grain "
         "size. "
-        "Place the origin nearer, or take double",
-        {body, double(out), double(grid), double(grid / size)});
+        "Place the origin nearer, move grains by whole periodic cells (set_pose), or take double",
+        {double(simulation.grain(outermost).index()), double(out), double(grid),
+         double(grid / size)});
 }
 
 }  // namespace moreau::detail
