@@ -162,6 +162,28 @@ TEST_CASE_TEMPLATE("a grain inside another, an obstacle that is released, a cell
   CHECK(has(message_of([&] { scene.world.step(h); }), "overlap of grain 1 and grain 2"));
 }
 
+TEST_CASE_TEMPLATE(
+    "grains without neighbours that are all placed elsewhere have few candidate pairs", ShapeT,
+    Ball<>, Disk<>) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  constexpr int side = S::dim == 2 ? 140 : 27;  // 2e4 grains
+  constexpr std::size_t count = S::dim == 2 ? side * side : side * side * side;
+  scenes::World<ShapeT> world(size, Materials<SignoriniCoulomb<>>(1, SignoriniCoulomb<>(0.5)));
+  const ShapeId shape = world.add_shape(ShapeT(size / 2));
+  for (std::size_t k = 0; k < count; ++k) {
+    Vector x;
+    std::size_t rest = k;
+    for (int axis = 0; axis < S::dim; ++axis, rest /= side)
+      x[axis] = 1.2 * size * double(rest % side);
+    world.add_grain(shape, Pose<S>(x), 1000);
+  }
+  CHECK(world.step(h).candidate_pairs == 0);
+  for (const BodyId grain : world.grains())
+    world.set_pose(grain, Pose<S>(Vector(world.pose(grain).position + Vector::Constant(20))));
+  CHECK(world.step(h).candidate_pairs < 14 * count);  // neighbours of a lattice
+}
+
 TEST_CASE_TEMPLATE("grains that start inside one another are not thrown", ShapeT,
                    MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>))) {
   using S = SpaceOf<ShapeT>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace moreau::detail {
 /// The boxes for which the broad phase lists pairs: those of the grains, enlarged so that the list stays
 /// valid while they move. A grain without a pair is alone. If such a grain leaves its box, its next one is
 /// longer in the direction of its motion, twice as long each time. So a lost grain makes the list new a
-/// number of times that grows as the logarithm of its way, however fast it is.
+/// number of times that grows as the logarithm of its way, however fast it is. Grains that are all placed far away
+/// by the user have boxes that are longer by a few margins and skins only, so that few of them overlap.
 template <class S>
 class EnlargedBoxes {
  public:
@@ -38,9 +40,11 @@ class EnlargedBoxes {
     Aabb<S> plain = box.inflated(reach + skin);
     const Vector longer = (old.upper - old.lower) - (plain.upper - plain.lower);
     if (old.contains(box.inflated(reach))) return longer.maxCoeff() > skin ? old : plain;
-    // Four times the way from the middle of the old box: twice as long as before.
+    // Four times the way from the middle of the old box: twice as long as before. Not more after a jump.
+    const Scalar most = 2 * std::max(longer.maxCoeff(), Scalar(0)) + 4 * (reach + skin);
     const Vector way = 2 * (box.lower + box.upper - old.lower - old.upper);
-    for (int k = 0; k < S::dim; ++k) (way[k] < 0 ? plain.lower : plain.upper)[k] += way[k];
+    for (int k = 0; k < S::dim; ++k)
+      (way[k] < 0 ? plain.lower : plain.upper)[k] += std::clamp(way[k], -most, most);
     return plain;
   }
 
