@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <doctest/doctest.h>
 #include <limits>
+#include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/law/bonded.hpp"
@@ -150,6 +152,61 @@ TEST_CASE_TEMPLATE("bond: a body that is moved by whole cells keeps its bond", S
     CHECK(world.bonds().size() == 1);
     CHECK(world.velocity(pair.grains[1]).norm() < 1e-9);
   }
+}
+
+TEST_CASE_TEMPLATE("bond: an axis that a bond reaches across keeps its length", ShapeT,
+                   Disk<double>, Ball<double>, Disk<float>, Ball<float>) {
+  using Pair = Chain<ShapeT>;
+  using S = typename Pair::S;
+  using T = typename Pair::T;
+  using Vector = typename Pair::Vector;
+  constexpr T length = T(0.25), infinity = std::numeric_limits<T>::infinity();
+  Pair pair(2, 0, 1000, Vector(T(0.1) * Vector::Ones()));
+  auto& world = pair.world;
+  world.set_periodic(0, 0, length);
+  world.set_periodic(0, 0, 2 * length);  // no bond reaches across it
+  world.set_periodic(0, 0, length);
+  const Pose<S> start = world.pose(pair.grains[1]);
+  world.set_pose(pair.grains[1], Pose<S>(Vector(start.position - 3 * length * Vector::UnitX())));
+  CHECK_THROWS_WITH_AS(world.set_periodic(0, 0, 2 * length),
+                       doctest::Contains("Simulation::set_periodic: axis = 0 must stay as it is"),
+                       std::invalid_argument);
+  CHECK_THROWS_AS(world.set_periodic(0, -infinity, infinity), std::invalid_argument);
+  CHECK(world.cell().length()[0] == length);
+  world.set_periodic(0, T(0.01), T(0.01) + length);
+  world.set_periodic(1, 0, 2 * length);
+  for (int k = 0; k < 3; ++k) world.step(T(1e-4));
+  CHECK(world.bonds().size() == 1);
+  CHECK(world.velocity(pair.grains[1]).norm() < (std::is_same_v<T, float> ? 1e-3 : 1e-9));
+  world.set_pose(pair.grains[1], start);
+  world.set_periodic(0, -infinity, infinity);
+  world.step(T(1e-4));
+  CHECK(world.bonds().size() == 1);
+}
+
+TEST_CASE_TEMPLATE(
+    "bond: a cell that has become too small is named by the function that was called", ShapeT,
+    Disk<double>, Ball<double>) {
+  using Pair = Chain<ShapeT>;
+  using S = typename Pair::S;
+  using Vector = typename Pair::Vector;
+  Pair pair(2, 0, 1000, Vector(0.1 * Vector::Ones()));
+  auto& world = pair.world;
+  world.set_cell(typename S::Matrix(0.3 * S::Matrix::Identity()));
+  CellControl<S> control;
+  control.rate(0, 1) = 20;
+  control.rate(1, 1) = -10;
+  world.control_cell(control);
+  const auto run = [&] {
+    for (int k = 0; k < 1000; ++k) world.step(1e-3);
+  };
+  CHECK_THROWS_WITH_AS(run(), doctest::Contains("Simulation::step: height of the cell = "),
+                       std::invalid_argument);
+  const typename S::Matrix before = world.cell().vectors();
+  CHECK_THROWS_WITH_AS(world.bond_touching(1e-5),
+                       doctest::Contains("Simulation::bond_touching: height of the cell = "),
+                       std::invalid_argument);
+  CHECK(world.cell().vectors() == before);
 }
 
 namespace {

@@ -132,7 +132,10 @@ class ContactDetector {
   /// axis, sorted by the numbers of the bodies. It keeps the list of an earlier call as long as no
   /// box has moved by the skin since; grains without a pair may move farther (EnlargedBoxes). Call
   /// place() before.
-  void find_pairs(const DetectionLengths<Scalar>& lengths);
+  /// @param function the public function that the caller of the library called, for error messages
+  /// @throws std::invalid_argument if a cell that deforms is too short for the grains
+  void find_pairs(const DetectionLengths<Scalar>& lengths,
+                  const char* function = "Simulation::step");
 
   /// Leaves the pairs of bonds out of detect(), until the next find_pairs().
   /// @param bonds sorted by their bodies

@@ -180,8 +180,9 @@ class Simulation : public BodyControl<ShapeT> {
   /// @param axis         0 for x, 1 for y, ..
   /// @param lower,upper  bounds of the cell along it [m]; walls must be parallel to the axis
   /// @throws std::invalid_argument for an axis that does not exist, bounds that are not ascending,
-  ///         a wall across the axis or with a spin about another one, a mesh wall, or a cell not
-  ///         longer than two of the widest grain with margin and skins: a pair could touch through two images
+  ///         a wall across the axis or with a spin about another one, a mesh wall, a cell not
+  ///         longer than two of the widest grain with margin and skins: a pair could touch through two images, or a
+  ///         bond across an axis that is opened or gets another length. The simulation is then unchanged
   void set_periodic(int axis, Scalar lower, Scalar upper);
   /// Makes the world periodic along D vectors, with a cell that can deform (control_cell()). Poses are not
   /// wrapped. Walls, cylinders and meshes do not fit into it. An oblique cell, as after a large shear, gets other

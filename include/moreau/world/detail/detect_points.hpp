@@ -86,8 +86,9 @@ void ContactDetector<ShapeT, BroadPhaseT>::remove_grains(
 }
 
 template <class ShapeT, class BroadPhaseT>
-void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths) {
-  if (near_.find(grains_, boxes_, lengths, widest_)) order_.invalidate();
+void ContactDetector<ShapeT, BroadPhaseT>::find_pairs(const DetectionLengths<Scalar>& lengths,
+                                                      const char* function) {
+  if (near_.find(grains_, boxes_, lengths, widest_, function)) order_.invalidate();
   margins_.take_all();
 }
 

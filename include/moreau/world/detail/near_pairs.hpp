@@ -108,10 +108,12 @@ class NearPairs {
   /// @param grains with their body and placed shape
   /// @param boxes  one per grain [m]
   /// @param widest width of the grains in any orientation [m]
+  /// @param function the public function that the caller of the library called, for error messages
   /// @returns whether the list is new
+  /// @throws std::invalid_argument if a cell that deforms is too short for the grains
   template <class Grains>
   bool find(const Grains& grains, std::span<const Aabb<S>> boxes,
-            const DetectionLengths<Scalar>& lengths, Scalar widest);
+            const DetectionLengths<Scalar>& lengths, Scalar widest, const char* function);
 
   std::span<const IndexPair> pairs() const { return pairs_; }  ///< sorted
   /// One per pair: moves the second grain next to the first [m]; empty in an open cell.
@@ -142,11 +144,14 @@ class NearPairs {
                         Scalar widest) const;
 
   /// Chooses the shortest vectors of a lattice, for a new list.
-  /// @param width of the widest grain with its reach [m]
-  /// @throws std::invalid_argument if the cell is too short for it
-  MOREAU_COLD void renew_lattice(Scalar width) {
-    cell_.reduce();
-    cell_.require_room(width, "Simulation::step");
+  /// @param width    of the widest grain with its reach [m]
+  /// @param function the public function that the caller of the library called, for error messages
+  /// @throws std::invalid_argument if the cell is too short for it; its vectors are then as before
+  MOREAU_COLD void renew_lattice(Scalar width, const char* function) {
+    PeriodicCell<S> reduced = cell_;
+    reduced.reduce();
+    reduced.require_room(width, function);
+    cell_ = reduced;
     deformed_.setIdentity();
     deformed_lost_.setZero();
   }
@@ -170,7 +175,8 @@ class NearPairs {
 template <class ShapeT, class BroadPhaseT>
 template <class Grains>
 bool NearPairs<ShapeT, BroadPhaseT>::find(const Grains& grains, std::span<const Aabb<S>> boxes,
-                                          const DetectionLengths<Scalar>& lengths, Scalar widest) {
+                                          const DetectionLengths<Scalar>& lengths, Scalar widest,
+                                          const char* function) {
   const Scalar reach = lengths.margin / 2;
   const bool is_new = stale_ || fat_.size() != boxes.size();
   bool left = is_new, known = false;
@@ -186,7 +192,7 @@ bool NearPairs<ShapeT, BroadPhaseT>::find(const Grains& grains, std::span<const 
       left = !fat_[k].contains(boxes[k].inflated(reach)) ||
              (!caches_.holds(k, grains[k].placed, reach) && !is_alone(k));
   if (!left) return false;
-  if (cell_.is_lattice()) renew_lattice(widest + lengths.margin + 2 * lengths.skin);
+  if (cell_.is_lattice()) renew_lattice(widest + lengths.margin + 2 * lengths.skin, function);
   stale_ = false;
   fat_.resize(boxes.size());
   for (std::size_t k = 0; k < boxes.size(); ++k)

@@ -113,7 +113,7 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::add_bonds(const 
   detector_.place(std::span<const Pose<S>>(bodies().pose),
                   [&](std::size_t k) -> const ShapeT& { return assembly_.shape_of_grain(k); });
   const Matrix vectors = cell().vectors();
-  detector_.find_pairs(lengths());
+  detector_.find_pairs(lengths(), function);
   if (cell().is_lattice()) dynamics_.bonds().recount_cells(vectors, cell());
   detector_.use_whole_margin();
   detector_.detect(lengths(), bodies(), contacts_, touching);

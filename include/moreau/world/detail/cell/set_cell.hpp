@@ -6,6 +6,7 @@
 
 #include "moreau/core/error.hpp"
 #include "moreau/core/periodic_cell.hpp"
+#include "moreau/world/bond.hpp"
 #include "moreau/world/cell_control.hpp"
 #include "moreau/world/simulation.hpp"
 
@@ -23,6 +24,14 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_periodic(int axis, 
   };
   for (const BodyId wall : assembly_.walls()) require_stays(wall);
   for (const CylinderBody<S>& wall : assembly_.cylinders()) require_stays(wall.body);
+  if constexpr (bonding)
+    if (cell.length()[axis] != detector_.cell().length()[axis])
+      for (Bond<S> bond : bonds()) {
+        detail::count_cells(bond, bodies(), detector_.cell());
+        require(
+            bond.cells[axis] == 0, self, "axis", axis,
+            "must stay as it is: a bond reaches across it, and would be stretched by the change");
+      }
   detector_.place_walls(assembly_.bodies().pose);
   detector_.set_cell(cell, lengths(), self);
   assembly_.note_all_placed();
