@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
+#include "moreau/core/small_matrix.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/world/step_report.hpp"
@@ -24,31 +26,25 @@ namespace moreau::detail {
 /// @param bodies number of bodies
 /// @param pairs  of bodies in contact
 /// @param fixed  function: body -> whether it cannot move
-inline int longest_way(std::size_t bodies, const auto& pairs, const auto& fixed) {
-  std::vector<std::vector<std::uint32_t>> neighbours(bodies);
-  std::vector<std::uint32_t> front, next;
-  std::vector<unsigned char> reached(bodies, 0);
-  for (const auto& [a, b] : pairs) {
-    neighbours[a].push_back(b);
-    neighbours[b].push_back(a);
-  }
+MOREAU_INLINED inline int longest_way(std::size_t bodies, const auto& pairs, const auto& fixed) {
+  const int far = int(bodies);
+  std::vector<int> ways(bodies, far);
   for (std::uint32_t i = 0; i < bodies; ++i)
-    if (fixed(i)) {
-      reached[i] = 1;
-      front.push_back(i);
-    }
-  int way = -1;
-  for (; !front.empty(); ++way) {
-    next.clear();
-    for (const std::uint32_t i : front)
-      for (const std::uint32_t k : neighbours[i])
-        if (reached[k] == 0) {
-          reached[k] = 1;
-          next.push_back(k);
+    if (fixed(i)) ways[i] = 0;
+  // A way to one body of a pair goes on to the other, until no way becomes shorter. Structures are small.
+  for (bool again = true; again;) {
+    again = false;
+    for (const auto& pair : pairs)
+      for (const int k : {0, 1})
+        if (int& way = ways[pair[std::size_t(k)]]; ways[pair[std::size_t(1 - k)]] + 1 < way) {
+          way = ways[pair[std::size_t(1 - k)]] + 1;
+          again = true;
         }
-    front.swap(next);
   }
-  return way;
+  int longest = -1;
+  for (const int way : ways)
+    if (way < far) longest = std::max(longest, way);
+  return longest;
 }
 
 /// Says how fast a structure at rest can creep by the residual, if that is more than a hundredth of the grain size in a
@@ -73,13 +69,17 @@ template <class Simulation>
         contacts.impulses[c].template head<S::dim>().template cast<double>().squaredNorm();
     if (square > 0) pairs.push_back({point.a, point.b});
     squares += square;
-    const auto add = [&](std::size_t body, const typename S::Vector& lever) {
-      const auto root = bodies.mobility_root(body);
-      trace += double(root.linear.squaredNorm()) +
-               double((S::lever(lever) * root.angular).squaredNorm());
-    };
-    add(point.a, point.lever_a);
-    add(point.b, point.lever_b);
+    for (const bool is_b : {false, true}) {
+      // In the axes of the body, which do not change lengths.
+      const std::size_t body = is_b ? point.b : point.a;
+      const typename S::Vector lever = transposed_product(typename S::Matrix(bodies.axes(body)),
+                                                          is_b ? point.lever_b : point.lever_a);
+      for (const auto inverse_mass : bodies.inverse_mass[body]) trace += double(inverse_mass);
+      for (int k = 0; k < S::angular_dim; ++k)
+        trace += double(
+            S::spin(typename S::Angular(bodies.inverse_inertia_root_body[body].col(k)), lever)
+                .squaredNorm());
+    }
   }
   if (pairs.empty()) return;
   const int way =
