@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "moreau/core/compiled_once.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
@@ -105,7 +106,7 @@ struct OverlapScene {
 }
 
 /// What the solver did not reach.
-[[gnu::cold]] inline void check_solve(Findings& found, const SolveReport& solve) {
+MOREAU_INLINED inline void check_solve(Findings& found, const SolveReport& solve) {
   if (solve.unsolved_islands > 0)
     found.say(
         "% of % small structures not solved: velocities of their bodies have an estimated error of "

@@ -31,12 +31,14 @@ struct Extremes {
   double friction = 0;  ///< largest of the laws from 5 to 90, else 0
   double gravity = 0;   ///< its length [m/s^2]
   double step = 0;      ///< h [s]
+  /// Whether the grain size is not below the smallest width of a grain.
+  bool thickness_fits(double size) const { return 0.999 * thickness <= size; }
 };
 
 [[gnu::cold]] inline void judge(Findings& found, const Extremes& of, double size) {
   const bool earth = of.gravity > 9 && of.gravity<11, grains = of.heaviest> 0;
   // For a plate or a stick any length between thickness and diameter is accepted, also among larger grains.
-  const bool fits = of.width > 0.2 * size && (of.width < 5 * size || 0.999 * of.thickness <= size);
+  const bool fits = of.width > 0.2 * size && (of.width < 5 * size || of.thickness_fits(size));
   if (grains && !fits)
     found.say(
         "grain size % m, but the ball around the smallest grain has a diameter of % m; all "
@@ -150,22 +152,28 @@ template <class Simulation>
   Extremes of;
   of.step = step;
   const auto& bodies = simulation.bodies();
-  const auto for_each_judged = [&](const auto& use) {
-    for (std::size_t k = 0; k < simulation.grain_count(); ++k)
-      if (const std::size_t body = simulation.grain(k).index(); !bodies.is_prescribed(body))
-        use(simulation.shape_of_grain(k), body);
-  };
-  for_each_judged([&](const auto& shape, std::size_t body) {
-    const double density = double(bodies.grain_mass[body]) / double(shape.mass_properties(1).mass);
-    of.width = std::min(of.width, 2 * double(circumradius(shape)));
-    of.density = std::min(of.density, density);
-    of.heaviest = std::max(of.heaviest, density);
-  });
-  if (of.width >= 5 * double(simulation.grain_size())) {
-    of.thickness = of.width;
-    for_each_judged([&](const auto& shape, std::size_t) {
-      of.thickness = std::min(of.thickness, double(smallest_width(shape)));
-    });
+  const double size = double(simulation.grain_size());
+  // Then, if all are wide, thicknesses, until a grain is thin enough: the smallest width of a hull takes long.
+  const void* last = nullptr;
+  for (const bool thin : {false, true}) {
+    if (thin && of.width < 5 * size) break;
+    if (thin) of.thickness = of.width;
+    for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+      const std::size_t body = simulation.grain(k).index();
+      if (bodies.is_prescribed(body)) continue;
+      const auto& shape = simulation.shape_of_grain(k);
+      if (thin) {
+        if (of.thickness_fits(size)) break;
+        if (&shape != last) of.thickness = std::min(of.thickness, double(smallest_width(shape)));
+        last = &shape;
+        continue;
+      }
+      const double density =
+          double(bodies.grain_mass[body]) / double(shape.mass_properties(1).mass);
+      of.width = std::min(of.width, 2 * double(circumradius(shape)));
+      of.density = std::min(of.density, density);
+      of.heaviest = std::max(of.heaviest, density);
+    }
   }
   for (const auto& law : simulation.materials().laws())
     if constexpr (FrictionLaw<std::remove_cvref_t<decltype(law)>>)
@@ -173,14 +181,14 @@ template <class Simulation>
         of.friction = std::max(of.friction, friction);
   check_range(found, simulation);
   of.gravity = double(simulation.gravity().norm());
-  judge(found, of, double(simulation.grain_size()));
+  judge(found, of, size);
   check_direction(found, simulation);
 }
 
 /// Whether nothing moves, and nothing will: no gravity, and no body has a velocity, a force or a part of its overlap
 /// that a spring or the correction would push back.
 template <class Simulation>
-[[gnu::cold]] bool is_idle(const Simulation& simulation, const StepReport& report) {
+MOREAU_INLINED inline bool is_idle(const Simulation& simulation, const StepReport& report) {
   bool idle = simulation.grain_count() > 0 && simulation.gravity().isZero(0) &&
               !simulation.cell_motion().is_active() && report.overlapping == 0;
   const auto& bodies = simulation.bodies();
