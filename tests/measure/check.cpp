@@ -484,6 +484,15 @@ TEST_CASE_TEMPLATE(
     CHECK(says(a, "the force or torque of body 3 has no effect: its motion is prescribed"));
     a.set_wall_mass(BodyId(3), T(1e3));
     CHECK(check(a, a.step(T(1e-4))).empty());
+    const char* aside =
+        "has no effect, or a part of it: a wall with a mass moves along its normal only";
+    a.set_force(BodyId(3), T(-1) * up + T(1e-2) * Vector::UnitX());
+    CHECK(says(a, aside));
+    a.set_force(BodyId(3), T(-1) * up + T(1e-5) * Vector::UnitX());  // rounding
+    CHECK(check(a, a.step(T(1e-4))).empty());
+    a.set_torque(BodyId(3), S::Angular::Constant(T(1e-6)));
+    CHECK(says(a, aside));
+    a.set_torque(BodyId(3), S::Angular::Zero());
     a.set_force(BodyId(1), T(1e-3) * up);
     CHECK(check(a, a.step(T(1e-4))).empty());
     a.prescribe_motion(BodyId(1));
@@ -496,6 +505,14 @@ TEST_CASE_TEMPLATE(
     auto b = world();
     b.prescribe_motion(BodyId(0)), b.prescribe_motion(BodyId(1));
     CHECK(says(b, "the motion of all bodies is prescribed"));
+
+    auto lid = world();
+    lid.set_wall_mass(BodyId(3), T(1e3));
+    lid.set_pose(BodyId(3), {Vector(T(0.1) * size * up), lid.pose(BodyId(3)).rotation});
+    lid.remove_grains(std::vector<BodyId>{lid.grain(0), lid.grain(1)});
+    CHECK(!one_contains(check(lid, lid.step(T(1e-4))), "has passed"));
+    lid.set_velocity(BodyId(3), T(-0.2) * size / T(1e-4) * up);
+    CHECK(one_contains(check(lid, lid.step(T(1e-4))), "wall 3 has passed wall 2, which it faces"));
 
     for (const T steps : {T(0.5), T(0.9), T(1.1), T(50)}) {
       auto c = world();

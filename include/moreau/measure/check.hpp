@@ -68,8 +68,9 @@ class SentencesOnce {
 ///          - an attraction is not 0 at the margin of detection, where it ends, and its law has no function range()
 ///          - gravity points along the last axis, or along another one that is not periodic, and no wall and no obstacle
 ///            lies there
-///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass; the motion of all
-///            bodies is prescribed
+///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass, or along a wall that
+///            has one; the motion of all bodies is prescribed
+///          - a wall with a mass has passed a parallel wall that faces it
 ///          - a grain moves by more than a grain size in the step, although no contact approaches as fast
 ///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
 ///            will ever move
