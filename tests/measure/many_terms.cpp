@@ -18,6 +18,7 @@
 #include "moreau/measure/stress.hpp"
 #include "moreau/measure/velocity_field.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/world/detail/cell/cell_jumps.hpp"
 #include "moreau/world/simulation.hpp"
 
 using namespace moreau;
@@ -86,6 +87,10 @@ TEST_CASE_TEMPLATE("a million contacts in single precision: stress, fabric, over
       contact_stress<S>(contacts, 1, unit_box<S>(), position_of, is_grain);
   CHECK(double(stress(0, 1)) == near(0.2 * 0.1 / std::sqrt(double(S::dim)) * many));
   CHECK(double(contacts.impulse_on(0)[1]) == near(-0.1 / std::sqrt(double(S::dim)) * many));
+
+  const auto of_cell = detail::CellJumps<S>::moment_of_contacts(
+      contacts, [&](std::size_t c) { return Vector(contacts.impulses[c]); }, 1);
+  CHECK(double(of_cell(0, 1)) == near(0.2 * 0.1 / std::sqrt(double(S::dim)) * many));
 
   PairForce<S> pair{};
   pair.normal = point.frame.col(0);

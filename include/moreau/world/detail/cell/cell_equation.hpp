@@ -42,8 +42,9 @@ class CellEquation {
     if constexpr (AttractiveLaw<Law, S>)
       if (!pulls.empty())
         moment = CellJumps<S>::moment_of_contacts(
-            context.contacts, [&](std::size_t c) { return Vector(-pulls[c] * Vector::Unit(0)); },
-            Scalar(1));
+                     context.contacts,
+                     [&](std::size_t c) { return Vector(-pulls[c] * Vector::Unit(0)); }, Scalar(1))
+                     .template cast<Scalar>();
     servo_.set_rate(servo_.free(moment));
     jumps_.change(servo_.rate(), context.contacts, op);
     op.add_cell(servo_.response());

@@ -24,6 +24,7 @@ class CellJumps {
   using Vector = typename S::Vector;
   using Matrix = typename S::Matrix;
   using Twist = typename S::Twist;
+  using Sum = Eigen::Matrix<double, S::dim, S::dim>;  ///< of many terms
 
   /// Adds -h L p to the free velocities of all bodies whose motion is not prescribed.
   /// @param rate L [1/s]
@@ -77,32 +78,36 @@ class CellJumps {
     }
     return sum;
   }
-  /// V sigma of the contacts of a step [J], from impulses that may still be those of the solver.
+  /// V sigma of the contacts of a step [J], from impulses that may still be those of the solver. In double precision: the
+  /// cell has many contacts.
   /// @param impulse function: contact -> impulse on b, contact frame [N s]
-  static Matrix moment_of_contacts(const auto& contacts, const auto& impulse, Scalar step) {
-    Matrix sum = Matrix::Zero();
+  static Sum moment_of_contacts(const auto& contacts, const auto& impulse, Scalar step) {
+    Sum sum = Sum::Zero();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Contact<S>& contact = contacts.points[c];
       const Vector between = contact.lever_a - contact.lever_b,
                    force = product(contact.frame, Vector(impulse(c))) / step;
-      add_product_transposed(sum, between, force);
+      add_product_transposed(sum, in_double(between), in_double(force));
     }
     return sum;
   }
   /// V sigma of a step [J].
   static Matrix moment(const Bodies<S>& bodies, const auto& contacts, std::span<const Twist> after,
                        Scalar step) {
-    Matrix sum = moment_of_contacts(
+    Sum sum = moment_of_contacts(
         contacts, [&](std::size_t c) { return contacts.impulse(c); }, step);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies.is_prescribed(i)) continue;
       const Vector p = linear<S>(bodies.velocity[i]), mean = (p + linear<S>(after[i])) / 2;
-      add_product_transposed(sum, Vector(bodies.grain_mass[i] * p), mean);
+      add_product_transposed(sum, in_double(bodies.grain_mass[i] * p), in_double(mean));
     }
-    return sum;
+    return sum.template cast<Scalar>();
   }
 
  private:
+  static Eigen::Matrix<double, S::dim, 1> in_double(const Vector& x) {
+    return x.template cast<double>();
+  }
   /// A velocity at a contact, in its frame, in the rows of the operator.
   template <class Row>
   static Row row_of(const auto& op, std::size_t c, const Vector& velocity) {
