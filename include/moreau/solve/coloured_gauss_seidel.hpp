@@ -15,7 +15,8 @@
 //    stopping test visits all contacts and updates the set, and so do sweeps 1, 2, 4, 8, .. of the first interval.
 //
 // Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
-// bodies by a direct method, if the law is Coulomb's or that of RollingResistance (detail/island_solver.hpp, island_newton.hpp). Sweeps
+// bodies by a direct method, if the law is Coulomb's or that of RollingResistance and no body of them has a bond
+// (detail/island_solver.hpp, island_newton.hpp). Sweeps
 // do not reach this tolerance in chains of contacts: the residual is relative to the largest impulses, and small errors of many contacts add up.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local

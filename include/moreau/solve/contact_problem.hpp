@@ -83,6 +83,13 @@ struct ContactProblem {
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.
   const Law& law(std::size_t c) const { return laws[law_of[c]]; }
+  /// Whether contact c < size(), which is not checked, is a bond: bonds attract, and other contacts of a law with bonds do not.
+  bool is_bond([[maybe_unused]] std::size_t c) const {
+    if constexpr (BondingLaw<Law, Space>)
+      return !attraction.pulls.empty() && attraction.pulls[c] != 0;
+    else
+      return false;
+  }
 };
 
 namespace detail {

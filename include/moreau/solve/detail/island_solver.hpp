@@ -21,13 +21,14 @@
 
 namespace moreau::detail {
 
-/// Whether the direct method solves the contacts of a law: Coulomb's, or that with couples. Of rigid bonds the impulses and
-/// their limits are those of the strength, beside which loads can be small.
+/// Whether the direct method solves the contacts of a law: Coulomb's, or that with couples.
 template <class Law, class S>
-concept HasIslands = CoulombLaw<Law, S> ||(RollingCoulombLaw<Law, S> && !BondingLaw<Law, S>);
+concept HasIslands = CoulombLaw<Law, S> || RollingCoulombLaw<Law, S>;
 
 /// The small islands of one contact problem: those of at least two contacts for
-/// which steps of Newton's method are cheap. A single contact is solved exactly by every sweep. Keeps its memory.
+/// which steps of Newton's method are cheap. A single contact is solved exactly by every sweep. Islands with a bond are
+/// left to the sweeps: impulses of a bond and their limits are those of its strength, beside which loads can be small. Keeps
+/// its memory.
 ///
 /// Where the warm start is near a solution, as in structures at rest, few steps are enough, before the sweeps, and where
 /// its defect shows that it is solved, none. Other islands are attempted after the sweeps, which takes as long as many
@@ -59,7 +60,8 @@ class IslandSolver {
       const double least_cost =
           Newton::least_cost_of_step(contacts.size(), islands_->bodies(k), islands_->pairs(k)) /
           double(contacts.size());
-      if (contacts.size() < 2 || least_cost > most_visits) {
+      if (contacts.size() < 2 || least_cost > most_visits ||
+          (bonding && has_bond(problem, contacts))) {
         others_ = true;
         continue;
       }
@@ -195,6 +197,7 @@ class IslandSolver {
  private:
   static constexpr bool couples = Rolls<Law>;
   static constexpr int dim = Operator::Space::dim;
+  static constexpr bool bonding = BondingLaw<Law, typename Operator::Space>;
   using Newton = IslandNewton<typename Operator::Space, couples>;
   struct Small {
     std::size_t island;
@@ -233,6 +236,10 @@ class IslandSolver {
                           cheap_visits = 7.5 * unit, most_visits = 11.1 * unit,
                           warm_visits = 50 * unit;
 
+  static bool has_bond(const Problem& problem, std::span<const std::uint32_t> contacts) {
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [&](std::uint32_t c) { return problem.is_bond(c); });
+  }
   /// Starts Newton's method for the island that take() took. If impulses change the velocity of a body by little, the error of the
   /// body is relative to its load, to its rounding and to its load of the step before: otherwise the velocities of a structure that
   /// lost its support, and now falls freely, would have no scale.
@@ -335,7 +342,7 @@ class IslandSolver {
   /// pressure more closely than even pressures do.
   bool has_static_friction(const Problem& problem, const Small& one) const {
     constexpr std::size_t variants = variants_of<Law, typename Operator::Space>();
-    if constexpr (variants > 1)
+    if constexpr (variants > 1 && !bonding)  // the other variant is that of bonds
       for (const std::uint32_t c : islands_->contacts(one.island)) {
         const std::size_t first = problem.law_of[c] / variants * variants;
         for (std::size_t k = first; k < std::min(first + variants, problem.laws.size()); ++k)

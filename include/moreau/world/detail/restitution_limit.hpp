@@ -358,9 +358,7 @@ class RestitutionLimit {
       Island& island = islands_[island_of(bodies, problem, c)];
       const Row change = bounce.impulse - rest.impulse;
       island.hits = island.hits || bounce.hits;
-      if constexpr (BondingLaw<Law, S>)
-        island.bonded = island.bonded ||
-                        (!problem.attraction.pulls.empty() && problem.attraction.pulls[c] != 0);
+      if constexpr (BondingLaw<Law, S>) island.bonded = island.bonded || problem.is_bond(c);
       island.gain += bounce.gain;
       island.forced += bounce.forced;
       island.gain_terms += std::abs(bounce.gain) + std::abs(bounce.forced) +
