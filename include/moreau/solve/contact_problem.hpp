@@ -62,7 +62,8 @@ struct ContactProblem {
   /// Velocities of the bodies without impulses, from which b is computed, one per body, (v, w) in world axes [m/s, rad/s];
   /// in single precision only; empty: not known.
   List<typename Space::Twist> free;
-  /// What the open gaps add to b_n, gap / h, one per contact, >= 0 [m/s]; under Coulomb's law only; empty: not known.
+  /// What the open gaps add to b_n, gap / h, one per contact, >= 0 [m/s]; under Coulomb's law, with couples or without; empty:
+  /// not known.
   List<Scalar> gap_velocity;
   /// The attraction of the contacts, if the law is an AttractiveLaw.
   [[no_unique_address]] std::conditional_t<

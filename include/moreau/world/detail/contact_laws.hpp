@@ -70,7 +70,7 @@ class ContactLaws {
     before_.resize(context.contacts.size());
     limit_.resize(context.contacts.size());
     [[maybe_unused]] Scalar* gap_velocity = nullptr;
-    if constexpr (CoulombLaw<Law, S>) {
+    if constexpr (has_gap_velocity) {
       problem.gap_velocity.resize(context.contacts.size());
       gap_velocity = problem.gap_velocity.data();
     }
@@ -101,7 +101,7 @@ class ContactLaws {
                  if constexpr (TangentialRestitutionLaw<Law, S>)
                    bounce_aside(problem, c, law, closing.gap, approach);
                  if (!std::isfinite(offset)) pushes[c].setZero();
-                 if constexpr (CoulombLaw<Law, S>) gap_velocity[c] = std::max(Scalar(0), offset);
+                 if constexpr (has_gap_velocity) gap_velocity[c] = std::max(Scalar(0), offset);
                  problem.delassus.offset_normal(c, offset);
                })
         .value;
@@ -136,6 +136,7 @@ class ContactLaws {
 
  private:
   static constexpr bool stateful = StatefulLaw<Law, S>;
+  static constexpr bool has_gap_velocity = CoulombLaw<Law, S> || RollingCoulombLaw<Law, S>;
   struct Largest {
     Scalar value = 0;
     void add(const Largest& other) { value = std::max(value, other.value); }
