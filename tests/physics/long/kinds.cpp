@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "physics/rows.hpp"
 #include "rotation_between.hpp"
 #include "sanitized.hpp"
 
@@ -150,6 +151,25 @@ TEST_CASE_TEMPLATE("kinds: blocks that slide in a row between two walls do not t
                       .epsilon(bound<ShapeT>(1e-4, 1e-3)));
           }
         }
+}
+
+// The same with random sizes, widths, masses, directions, steps and orders of the bodies.
+TEST_CASE_TEMPLATE("kinds: random rows of blocks that slide between two walls do not turn", ShapeT,
+                   Polyhedron<>, Polygon<>) {
+  using Vector = typename SpaceOf<ShapeT>::Vector;
+  int unsolved_rows = 0;
+  for (unsigned seed = 1000; seed < 1080; ++seed) {
+    const rows::Result row =
+        rows::slide<ShapeT>(seed, [](double size, double friction, const Vector& up) {
+          return world_of<ShapeT>(size, friction, up);
+        });
+    CAPTURE(seed);
+    unsolved_rows += row.unsolved > 0;
+    if (row.unsolved > 0) continue;
+    CHECK(row.turn < 1e-4);
+    CHECK(row.speed < 1e-4);
+  }
+  CHECK(unsolved_rows <= (in_space<ShapeT> ? 0 : 10));
 }
 
 // Single precision without friction: a light block under a heavy one is driven out within seconds (limits.md).
