@@ -15,10 +15,11 @@ namespace packing {
 using Law = moreau::SignoriniCoulomb<double>;
 
 /// 60 grains fall into a box and come to rest. After that, overlap and kinetic energy are recorded.
-/// Their largest values in the second half of the recorded time must not exceed those in the first
+/// The largest overlap and the mean energy in the second half of the recorded time must not exceed those in the first
 /// half, unless they are below what a packing at rest may have. This is an overlap equal to the
 /// slop of the overlap correction, and a velocity caused by the residual: the residual times g h
-/// times the number of grains that a contact carries.
+/// times the number of grains that a contact carries. Not the largest energy: these velocities open gaps of some 1e-8 m, and a grain that
+/// bears no load closes such a gap under its weight, in some ten steps. The residual does not bound its speed.
 template <class ShapeT>
 void check_rests(double duration) {
   constexpr double h = 1e-3, size = 0.02, gravity = 9.81;
@@ -36,7 +37,7 @@ void check_rests(double duration) {
   for (int k = 0; k < 2 * half; ++k) {
     const moreau::StepReport report = box.simulation.step(h);
     overlap[k / half] = std::max(overlap[k / half], report.max_overlap);
-    energy[k / half] = std::max(energy[k / half], moreau::kinetic_energy(box.simulation).total());
+    energy[k / half] += moreau::kinetic_energy(box.simulation).total() / half;
     capped += report.solve.capped;
   }
   const double slop = moreau::OverlapCorrectionOptions{}.slop * size;
