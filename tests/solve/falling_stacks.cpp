@@ -96,3 +96,32 @@ TEST_CASE_TEMPLATE("a stack that falls freely is solved from any warm start", S,
   CHECK(unsolved == 0);
   CHECK(fast == 0);
 }
+
+// Islands that the warm start solves are judged before the sweeps, with the free velocities of the problem at hand: those that
+// were packed for the sweeps of the last problem are others.
+TEST_CASE_TEMPLATE("a problem with other free velocities is judged by these", S, Space<2>,
+                   Space<3>) {
+  using Stack = FallingStack<S>;
+  using Workspace = ColouredGaussSeidel::Workspace<BodyDelassus<S>, typename FallingStack<S>::Law>;
+  std::mt19937_64 random(2);
+  Stack stack(5, 1, 0.5, weight, 0, random);
+  auto& problem = stack.problem;
+  const ColouredGaussSeidel solver;
+  const auto close_by = [&](double speed) {
+    for (std::size_t c = 0; c < problem.size(); ++c) problem.delassus.offset_normal(c, -speed);
+  };
+  std::vector<typename S::Vector> solution(problem.size(), S::Vector::Zero()),
+      impulses(problem.size(), S::Vector::Zero());
+  close_by(0.01);
+  Workspace workspace, fresh;
+  CHECK(solver.solve(problem, std::span(impulses), workspace).converged);
+  close_by(0.03);
+  CHECK(solver.solve(problem, std::span(solution), fresh).converged);
+  impulses = solution;
+  const SolveReport report = solver.solve(problem, std::span(impulses), workspace, /*again=*/true);
+  CHECK(report.converged);
+  CHECK(report.sweeps == 0);
+  SolveReport measured;
+  measure_residual(problem, std::span<const typename S::Vector>(impulses), measured);
+  CHECK(report.residual == doctest::Approx(measured.residual).scale(1e-12));
+}

@@ -123,7 +123,7 @@ class ColouredGaussSeidel {
   SolveReport solve(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace, bool again = false) const {
-    if (!again) workspace.sweeps.forget();
+    workspace.sweeps.renew(again);
     detail::drop_if_not_finite(impulses);
     if constexpr (detail::HasIslands<Law, typename Operator::Space>)
       if (options_.islands && !shared_ && !problem.delassus.has_cell())
@@ -188,13 +188,13 @@ class ColouredGaussSeidel {
              SolveReport& report) const {
     auto& [sweeps, first, islands] = workspace;
     const std::span<const typename Operator::Vector> known = impulses;
-    if (sweeps.is_packed())
+    if (sweeps.is_started())
       sweeps.take(problem.delassus, known, team_);
     else
       detail::set_impulses<Operator>(problem.delassus, known);
     islands.move(problem.delassus);
     islands.add_approach(problem);
-    if (sweeps.is_packed()) {
+    if (sweeps.is_started()) {
       sweeps.take_velocities(problem.delassus);
       sweeps.measure_residual(problem, known, report, team_);
     } else {

@@ -30,9 +30,12 @@ class ColouredSweeps {
   using S = typename Kernel::S;
   using Impulse = typename Kernel::Impulse;
 
-  /// The next start() is of another problem. Otherwise problems differ by their free velocities alone, and the groups
-  /// and their order are kept.
-  void forget() { is_packed_ = false; }
+  /// The next start() is of another problem.
+  /// @param again whether it differs from the last one by its free velocities alone: the groups and their order are kept
+  void renew(bool again) {
+    is_packed_ = is_packed_ && again;
+    is_started_ = false;
+  }
   /// @param problem out: its operator carries the velocities of the impulses
   /// @param shared  bodies that contact problems of other processes share; null: none
   void start(ContactProblem<Operator, Law>& problem, std::span<const Impulse> impulses,
@@ -46,6 +49,7 @@ class ColouredSweeps {
       all_.assign(kernel_.groups(), [&](std::uint32_t k) { return kernel_.groups()[k].count; });
       is_packed_ = true;
     }
+    is_started_ = true;
     if constexpr (!Kernel::is_fine) kernel_.set_unit(mean_diagonal(problem.delassus, shared));
     find_velocities(team);
     kernel_.end_packing();
@@ -75,8 +79,7 @@ class ColouredSweeps {
       moreau::measure_residual(problem, impulses, report, team, shared_);
     }
   }
-  /// Whether the groups are those of the present problem: after start(), until forget().
-  bool is_packed() const { return is_packed_; }
+  bool is_started() const { return is_started_; }  ///< after start(), until renew()
   /// Takes impulses that others have changed since start(), and gives the operator their velocities.
   void take(Operator& op, std::span<const Impulse> impulses, const Team& team) {
     kernel_.take(impulses, team);
@@ -261,7 +264,7 @@ class ColouredSweeps {
   }
 
   SharedBodies* shared_ = nullptr;
-  bool is_packed_ = false;
+  bool is_packed_ = false, is_started_ = false;
   Kernel kernel_;
   Schedule all_, active_;
   Acceleration<T> acceleration_;
