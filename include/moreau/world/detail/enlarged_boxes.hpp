@@ -41,10 +41,10 @@ class EnlargedBoxes {
     const Vector longer = (old.upper - old.lower) - (plain.upper - plain.lower);
     if (old.contains(box.inflated(reach))) return longer.maxCoeff() > skin ? old : plain;
     // Four times the way from the middle of the old box: twice as long as before. Not more after a jump.
-    const Scalar most = 2 * std::max(longer.maxCoeff(), Scalar(0)) + 4 * (reach + skin);
-    const Vector way = 2 * (box.lower + box.upper - old.lower - old.upper);
-    for (int k = 0; k < S::dim; ++k)
-      (way[k] < 0 ? plain.lower : plain.upper)[k] += std::clamp(way[k], -most, most);
+    const Scalar most = 4 * (std::max(longer.maxCoeff(), Scalar(0)) + reach + skin);
+    Vector way = 2 * (box.lower + box.upper - old.lower - old.upper);
+    way *= std::min(Scalar(1), most / way.cwiseAbs().maxCoeff());
+    for (int k = 0; k < S::dim; ++k) (way[k] < 0 ? plain.lower : plain.upper)[k] += way[k];
     return plain;
   }
 
