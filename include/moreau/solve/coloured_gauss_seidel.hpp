@@ -249,11 +249,7 @@ class ColouredGaussSeidel {
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
     detail::LineJumps line;
-    // In a closed row of rigid bonds impulses can go on changing without any effect on the motion. The changes at other contacts
-    // with an attraction are relative to the attraction, but the residual is relative to their load.
-    bool always = false;
-    if constexpr (AttractiveLaw<Law, typename Operator::Space>)
-      always = !problem.attraction.pulls.empty();
+    const bool always = measures_always(problem);
     while (!report.converged && report.sweeps < max_sweeps) {
       sweep_to_check(sweeps, max_sweeps, report);
       const double change = std::max(report.quad_dv, report.quad_dvr);
@@ -271,11 +267,9 @@ class ColouredGaussSeidel {
         expected_change = report.quad_dv * options_.tolerance / report.residual;
       }
       if (report.converged) break;
-      if constexpr (HasLines<Law, typename Operator::Space>) {
-        if (accelerate && !early && follow_line(line, change, sweeps)) {
-          least = std::min(least, change);
-          continue;
-        }
+      if (accelerate && !early && follow_line(line, change, sweeps)) {
+        least = std::min(least, change);
+        continue;
       }
       if (change < improvement * least) {
         least = change;
@@ -303,6 +297,16 @@ class ColouredGaussSeidel {
     return report;
   }
 
+  /// Whether the residual is measured at every stopping test. In a closed row of rigid bonds impulses can go on changing without any
+  /// effect on the motion. The changes at other contacts with an attraction are relative to the attraction, but the residual is
+  /// relative to their load.
+  template <class Operator, class Law>
+  static bool measures_always([[maybe_unused]] const ContactProblem<Operator, Law>& problem) {
+    if constexpr (AttractiveLaw<Law, typename Operator::Space>)
+      return !problem.attraction.pulls.empty();
+    else
+      return false;
+  }
   /// Whether detail/line_jumps.hpp is used. Of random problems under Coulomb's law alone it solved no more.
   template <class Law, class S>
   static constexpr bool HasLines = RollingLaw<Law, S> || AttractiveLaw<Law, S>;
@@ -323,8 +327,10 @@ class ColouredGaussSeidel {
 
   /// Follows the line on which impulses move, after a stopping test.
   /// @returns whether it has replaced the impulses
-  template <class Sweeps>
-  MOREAU_COLD bool follow_line(detail::LineJumps& line, double change, Sweeps& sweeps) const {
+  template <class Operator, class Law>
+  MOREAU_COLD bool follow_line(detail::LineJumps& line, double change,
+                               detail::ColouredSweeps<Operator, Law>& sweeps) const {
+    if constexpr (!HasLines<Law, typename Operator::Space>) return false;
     switch (line.after(change, sweeps.is_mixing())) {
       case detail::LineJumps::Next::nothing:
         return false;

@@ -12,8 +12,27 @@
 
 namespace moreau::detail {
 
+/// Names a wall with a mass that has passed another one.
+template <class Simulation>
+MOREAU_INLINED inline void check_walls(Findings& found, const Simulation& simulation) {
+  using Vector = typename Simulation::S::Vector;
+  using Scalar = typename Simulation::S::Scalar;
+  const auto& bodies = simulation.bodies();
+  for (const BodyId wall : simulation.walls())
+    for (const BodyId other : simulation.walls()) {
+      const std::size_t i = wall.index(), k = other.index();
+      const Vector normal = bodies.axes(i).col(0), facing = bodies.axes(k).col(0);
+      const Vector way = bodies.pose[k].position - bodies.pose[i].position;
+      if (bodies.is_prescribed(i) || normal.dot(way) >= 0 || normal.dot(facing) >= Scalar(-0.9999))
+        continue;
+      return found.say(
+          "wall % has passed wall %, which it faces: two walls never touch, whatever their masses",
+          {double(i), double(k)});
+    }
+}
+
 /// Names a body whose force has no effect, or only a part of it, a grain that moves by more than a grain size in the step
-/// although no contact shows it, a wall with a mass that has passed another one, and a simulation in which the motion of all
+/// although no contact shows it, and a simulation in which the motion of all
 /// bodies is prescribed.
 template <class Simulation>
 MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simulation,
@@ -23,7 +42,6 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
   using Scalar = typename S::Scalar;
   const auto& bodies = simulation.bodies();
   const auto normal_of = [&](std::size_t wall) -> Vector { return bodies.axes(wall).col(0); };
-  std::size_t passed = bodies.size(), by = 0;
   std::size_t in_vain = bodies.size(), fastest = bodies.size();
   double most = double(simulation.grain_size()) / report.step;
   bool any_free = simulation.grain_count() == 0;
@@ -47,18 +65,7 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
     const auto speed = double(linear<S>(bodies.velocity[i]).norm());
     if (speed > most) fastest = i, most = speed;
   }
-  for (const BodyId wall : simulation.walls())
-    for (const BodyId other : simulation.walls()) {
-      const Vector normal = normal_of(wall.index());
-      const Vector way = bodies.pose[other.index()].position - bodies.pose[wall.index()].position;
-      if (!bodies.is_prescribed(wall.index()) && normal.dot(way) < 0 &&
-          normal.dot(normal_of(other.index())) < Scalar(-0.9999))
-        passed = wall.index(), by = other.index();
-    }
-  if (passed < bodies.size())
-    found.say(
-        "wall % has passed wall %, which it faces: two walls never touch, whatever their masses",
-        {double(passed), double(by)});
+  check_walls(found, simulation);
   if (in_vain < bodies.size())
     found.say(
         bodies.is_prescribed(in_vain)
