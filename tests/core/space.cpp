@@ -80,9 +80,9 @@ template <class S>
 const typename S::Scalar difference_step = std::cbrt(epsilon<S>);
 
 /// The derivative of a function of a scalar at 0, by a central difference. If the values of the function
-/// are about 1, the error is about difference_error<S>.
+/// are about 1, the error is about difference_error<S>. Not from difference_step: variables of templates begin in any order.
 template <class S>
-const typename S::Scalar difference_error = difference_step<S>* difference_step<S>;
+const typename S::Scalar difference_error = std::pow(epsilon<S>, typename S::Scalar(2) / 3);
 template <class S, class F>
 auto derivative(const F& f) {
   const auto h = difference_step<S>;
