@@ -172,7 +172,8 @@ class IslandSolver {
         scale = std::max(scale, -double(op.free_velocity(c)[0]));
         for (const std::uint32_t body : op.bodies(c))
           scale = std::max({scale, double(op.velocity_change(body).template head<dim>().norm()),
-                            problem.least_scale(body, tolerance_) / least_share});
+                            problem.least_scale(body, tolerance_),
+                            problem.load.empty() ? 0 : double(problem.load[body])});
       }
       if (approach > accepted * tolerance_ * scale) one.error = scale > 0 ? approach / scale : 1;
     }
