@@ -160,15 +160,17 @@ class ColouredGaussSeidel {
     islands.finish(problem, impulses, report.sweeps, sweeps_converged);
     if (!islands.attempted()) return report;
     judge(problem, impulses, sweeps_converged, workspace, report);
-    if (!sweeps_converged || report.residual <= std::max(residual, options_.tolerance))
+    // The direct method ends at velocity_tolerance, which leaves a larger residual than tolerances near rounding allow.
+    const bool refines = sweeps_converged ? islands.made_even() : islands.all_solved();
+    if (report.residual <= std::max(residual, options_.tolerance) || (!sweeps_converged && !refines))
       return report;
-    // Under tolerances near rounding sweeps go on from even pressures, and keep them.
-    if (islands.made_even()) {
+    // Sweeps go on from even pressures, or from a solution that they have not reached from elsewhere, and keep them.
+    if (refines) {
       const int before = report.sweeps;
-      islands.roll_back();
+      if (sweeps_converged) islands.roll_back();
       report = sweep(problem, impulses, workspace);
       report.sweeps += before;
-      if (report.converged) {
+      if (report.converged || !sweeps_converged) {
         islands.write(report);
         return report;
       }
