@@ -161,8 +161,11 @@ class ColouredGaussSeidel {
     if (!islands.attempted()) return report;
     judge(problem, impulses, sweeps_converged, workspace, report);
     // The direct method ends at velocity_tolerance, which leaves a larger residual than tolerances near rounding allow.
-    const bool refines = sweeps_converged ? islands.made_even() : islands.all_solved();
-    if (report.residual <= std::max(residual, options_.tolerance) || (!sweeps_converged && !refines))
+    const bool refines = sweeps_converged
+                             ? islands.made_even()
+                             : islands.have_all_contacts() && report.unsolved_islands == 0;
+    if (report.residual <= std::max(residual, options_.tolerance) ||
+        (!sweeps_converged && !refines))
       return report;
     // Sweeps go on from even pressures, or from a solution that they have not reached from elsewhere, and keep them.
     if (refines) {

@@ -85,6 +85,9 @@ class IslandSolver {
     }
   }
   bool empty() const { return small_.empty(); }  ///< no island is small
+  bool have_all_contacts() const {
+    return !others_;
+  }  ///< whether all contacts lie in small islands
   /// Whether all contacts lie in islands whose error is within the tolerance.
   bool all_meet_tolerance() const {
     return !others_ && std::all_of(small_.begin(), small_.end(),
