@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "moreau/motion/body_motion.hpp"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <limits>
 #include <random>
 
 #include "conformance/integrator.hpp"
@@ -42,6 +44,39 @@ TEST_CASE("the spin at the end of a rotation has the angular momentum that is gi
   const Eigen::Vector3d spin = spin_after<S>(body.bodies, 0, momentum, {1, 1, 1}, 0.2);
   const Eigen::Vector3d result = body.bodies.inertia(0, S::exp(0.2 * spin)) * spin;
   CHECK((result - momentum).norm() < 1e-14);
+}
+
+// In steps of theta = 1/2. If the length of the quaternion is not 1 on average, the momentum drifts by two roundings per step.
+TEST_CASE_TEMPLATE("a free body keeps its angular momentum over 40000 steps", T, float, double) {
+  using S = Space<3, T>;
+  using Angular = typename S::Angular;
+  for (const T half : {T(1e-3), T(2.5e-4)})
+    for (const T first : {T(1), T(3)}) {
+      conformance::FreeBody<S> body(
+          1, Eigen::Matrix<T, 3, 1>(T(0.089), T(0.073), T(0.034)).asDiagonal());
+      Bodies<S>& bodies = body.bodies;
+      Pose<S>& pose = bodies.pose[0];
+      pose.rotation = S::exp(Angular(T(0.3), T(-0.7), T(1.1)));
+      Angular w(first, 10 - first, T(0.5));
+      const auto momentum = [&] { return Angular(product(bodies.inertia(0, pose.rotation), w)); };
+      const auto advance = [&] {
+        typename S::Twist twist = S::Twist::Zero();
+        angular<S>(twist) = w;
+        advance_pose<S>(pose, twist, half);
+      };
+      const Angular start = momentum();
+      T worst = 0;
+      constexpr int steps = 40000;
+      for (int k = 0; k < steps; ++k) {
+        const Angular before = momentum();
+        advance();
+        w = product(inverse_of(typename S::Inertia(bodies.inertia(0, pose.rotation))), before);
+        w = spin_after<S>(bodies, 0, momentum(), w, half);
+        advance();
+        worst = std::max(worst, T((momentum() - start).norm() / start.norm()));
+      }
+      CHECK(worst < T(steps) * std::numeric_limits<T>::epsilon() / 2);
+    }
 }
 
 TEST_CASE("the spin of slender bodies meets the angular momentum for large rotations") {

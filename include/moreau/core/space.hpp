@@ -15,8 +15,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <numbers>
 
 #include "moreau/core/compiler.hpp"
@@ -146,8 +148,19 @@ struct Space<3, T> : detail::SpaceTypes<3, T, Eigen::Quaternion<T>> {
     const T scale = sinc / T(2);
     return Rotation(cosine, scale * w[0], scale * w[1], scale * w[2]);
   }
-  /// Removes the rounding errors that many small rotations cause: q scaled to unit length.
-  static Rotation normalized(const Rotation& q) { return q.normalized(); }
+  /// Removes the rounding errors that many small rotations cause: q scaled to unit length. Over many steps the length of q
+  /// is 1 on average: q divided by |q| would stay above 1, because an excess of one rounding vanishes in the square root, and
+  /// spin_after() would then change the angular momentum by two roundings in each step.
+  static Rotation normalized(const Rotation& q) {
+    const auto& c = q.coeffs();
+    const T a = c[0] * c[0] + c[1] * c[1], b = c[2] * c[2] + c[3] * c[3];
+    const T excess = (std::max(a, b) - T(1)) + std::min(a, b);  // |q|^2 - 1
+    // The first neglected term of 1/|q| is 3/8 of the square.
+    if (!(excess * excess < std::numeric_limits<T>::epsilon() / T(4))) return q.normalized();
+    const T half = excess / T(2);
+    return Rotation(q.w() - half * q.w(), q.x() - half * q.x(), q.y() - half * q.y(),
+                    q.z() - half * q.z());
+  }
   static Rotation identity() { return Rotation::Identity(); }  ///< no rotation
   /// w with exp(w) = q and |w| <= pi [rad].
   static Angular log(const Rotation& q) {
