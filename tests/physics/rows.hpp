@@ -25,8 +25,9 @@ struct Result {
 
 /// @param seed     of the row
 /// @param world_of function: size [m], friction, up -> a simulation with gravity and one material
+/// @param scale    of the sizes, which are drawn from 0.003 to 3 m times this, and the square of that of all times [-]
 template <class ShapeT>
-Result slide(unsigned seed, const auto& world_of) {
+Result slide(unsigned seed, const auto& world_of, double scale = 1) {
   using S = moreau::SpaceOf<ShapeT>;
   using T = typename S::Scalar;
   using Vector = typename S::Vector;
@@ -35,8 +36,9 @@ Result slide(unsigned seed, const auto& world_of) {
   const auto number = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
   const auto factor = [&](double from, double to) { return from * std::pow(to / from, number()); };
   const int count = 1 + int(number() * 6);
-  const double size = factor(0.003, 3), mass = factor(1e-3, 1e3);
-  const double h = std::min(factor(1e-4, 1.0 / 60), std::sqrt(0.3 * size / weight));
+  const double size = scale * factor(0.003, 3), mass = factor(1e-3, 1e3);
+  const double slower = std::sqrt(scale);
+  const double h = std::min(slower * factor(1e-4, 1.0 / 60), std::sqrt(0.3 * size / weight));
   const double share = number() < 0.3 ? 0.99 : 0.3 + 0.68 * number();
   const typename S::Rotation tilt = kinds::tilt_to<S>(random, seed % 2 == 0);
   const Vector up = tilt * Vector::Unit(S::dim - 1), across = tilt * Vector::UnitX();
@@ -74,7 +76,7 @@ Result slide(unsigned seed, const auto& world_of) {
   const auto wall = is_left ? walls.first : walls.second;
   world.set_wall_mass(wall, T(mass * load / (weight * count)));
   world.set_force(wall, T((is_left ? 1 : -1) * share * load / (2 * friction)) * across);
-  const int steps = rounds(std::min(1500, int(0.3 / h)));
+  const int steps = rounds(std::min(1500, int(0.3 * slower / h)));
   Result result;
   for (int k = 0; k < steps; ++k) result.unsolved += !world.step(T(h)).solve.converged;
   const double expected = weight * (1 - share) * steps * h;

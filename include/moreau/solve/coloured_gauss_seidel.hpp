@@ -173,10 +173,12 @@ class ColouredGaussSeidel {
       if (sweeps_converged) islands.roll_back();
       report = sweep(problem, impulses, workspace);
       report.sweeps += before;
-      if (report.converged || !sweeps_converged) {
+      // The errors after roll_back() are those before judge(): bodies can be squeezed.
+      if (report.converged && sweeps_converged)
+        judge(problem, impulses, true, workspace, report);
+      else
         islands.write(report);
-        return report;
-      }
+      if (report.converged || !sweeps_converged) return report;
     }
     // Impulses of islands that are not solved are worse than those of the sweeps.
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());

@@ -153,23 +153,32 @@ TEST_CASE_TEMPLATE("kinds: blocks that slide in a row between two walls do not t
         }
 }
 
-// The same with random sizes, widths, masses, directions, steps and orders of the bodies.
+// The same with random sizes, widths, masses, directions, steps and orders of the bodies. In single precision gaps that rounding
+// leaves decided which points of a face bear the pressure: of 250 rows 21 turned by up to 1.8 rad without a word, and 7 were not solved.
 TEST_CASE_TEMPLATE("kinds: random rows of blocks that slide between two walls do not turn", ShapeT,
-                   Polyhedron<>, Polygon<>) {
+                   Polyhedron<>, Polygon<>, Polyhedron<float>, Polygon<float>) {
   using Vector = typename SpaceOf<ShapeT>::Vector;
   int unsolved_rows = 0;
-  for (unsigned seed = 1000; seed < 1080; ++seed) {
-    const rows::Result row =
-        rows::slide<ShapeT>(seed, [](double size, double friction, const Vector& up) {
+  const auto check = [&](unsigned seed, double scale) {
+    const rows::Result row = rows::slide<ShapeT>(
+        seed,
+        [](double size, double friction, const Vector& up) {
           return world_of<ShapeT>(size, friction, up);
-        });
+        },
+        scale);
     CAPTURE(seed);
+    CAPTURE(scale);
     unsolved_rows += row.unsolved > 0;
-    if (row.unsolved > 0) continue;
-    CHECK(row.turn < 1e-4);
-    CHECK(row.speed < 1e-4);
-  }
+    if (row.unsolved > 0) return;
+    CHECK(row.turn < bound<ShapeT>(1e-4, 1e-3));
+    CHECK(row.speed < bound<ShapeT>(1e-4, 1e-3));
+  };
+  for (unsigned seed = 1000; seed < 1080; ++seed) check(seed, 1);
   CHECK(unsolved_rows <= (in_space<ShapeT> ? 0 : 10));
+  unsolved_rows = 0;
+  if (is_double<ShapeT>) return;
+  for (unsigned seed = 7000; seed < 7020; ++seed) check(seed, 1000);
+  CHECK(unsolved_rows == 0);
 }
 
 // Single precision without friction: a light block under a heavy one is driven out within seconds (limits.md).

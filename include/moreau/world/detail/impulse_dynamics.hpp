@@ -438,10 +438,13 @@ void ImpulseDynamics<S, Law, Integrator, Solver>::solve_contacts(const Context& 
   report.correction = correct_overlaps(context);
   report.ms_correct += clock.lap();
   laws_.list_variants(context, problem_);
-  const auto gap_of = [&context, this](std::size_t c) {
+  // Gaps stay open up to the length up to which overlaps do. Springs need their own.
+  const Scalar most =
+      compliant ? Scalar(0) : static_cast<Scalar>(correction_.options().slop) * context.grain_size;
+  const auto gap_of = [&context, this, most](std::size_t c) {
     const Contact<S>& contact = context.contacts.points[c];
     const Scalar gap = contact.gap + correction_.gap_change(contact);
-    return is_gap_rounding(context.bodies, contact, gap) ? Scalar(0) : gap;
+    return is_gap_rounding(context.bodies, contact, gap, most) ? Scalar(0) : gap;
   };
   const Scalar approach =
       laws_.offset_velocities(context, std::span<const Twist>(velocities_.before), problem_,
