@@ -139,6 +139,27 @@ TEST_CASE("bad drives and servos are named") {
                        std::invalid_argument);
 }
 
+TEST_CASE_TEMPLATE("a servo moves the lid of a shear cell along its normal alone", ShapeT,
+                   moreau::Ball<>, moreau::Disk<>) {
+  using Vector = typename LoneWall<ShapeT>::Vector;
+  for (const bool drive_first : {false, true}) {
+    LoneWall<ShapeT> scene;
+    auto& world = scene.simulation;
+    const Vector along = Vector::Unit(1);
+    world.set_velocity(scene.wall, Vector(7 * Vector::UnitX() + 3 * along));
+    const PressureServo servo(scene.wall, 100, 1e-3, 0.05, [] { return 1.0; });
+    const VelocityDrive drive(scene.wall, along, [](double) { return 3.0; });
+    for (int k = 0; k < 10; ++k) {
+      if (drive_first) drive.apply(world, 1e-3);
+      servo.apply(world, 1e-3);
+      world.step(1e-3);
+      CHECK(world.velocity(scene.wall)[0] == doctest::Approx(0.05));  // the limit
+      CHECK(world.velocity(scene.wall)[1] == 3);
+    }
+    CHECK(world.pose(scene.wall).position[1] == doctest::Approx(0.03));
+  }
+}
+
 TEST_CASE("a velocity drives a grain of prescribed motion, a force does not") {
   LoneWall<moreau::Disk<>> scene;
   using V = Eigen::Vector2d;

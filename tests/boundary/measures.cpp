@@ -109,6 +109,9 @@ TEST_CASE("a balance is kept of the bodies that it began with") {
   moreau::EnergyBalance<Space<3>> energy(box.simulation);
   const auto report = box.simulation.step(1e-3);
   CHECK_THROWS_AS(energy.add(box.simulation, report, 0), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(energy.add(box.simulation, report, 1),
+                       "EnergyBalance::add: step = 1 must be the step of the report",
+                       std::invalid_argument);
   box.simulation.add_wall({0, 0, -1}, {0, 0, 1});
   CHECK_THROWS_AS(energy.add(box.simulation, report, 1e-3), std::invalid_argument);
 }

@@ -7,7 +7,11 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/heap.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "types.hpp"
@@ -77,6 +81,63 @@ TEST_CASE_TEMPLATE("rest needs its time, and has a hysteresis", ShapeT, Disk<>, 
     CHECK(slider.step(rest, 0));
     CHECK(rest.missing_load() < 1e-3);
   }
+}
+
+TEST_CASE_TEMPLATE("a lid in the air, which a force moves, is not at rest, and on grains it is",
+                   ShapeT, MOREAU_TYPES((Disk<>, Ball<>), (Polygon<>, Polyhedron<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (const double acceleration : {0.02, 0.1, 10.0})
+    for (const bool is_mesh : {false, true}) {
+      CAPTURE(acceleration);
+      CAPTURE(is_mesh);
+      Simulation<ShapeT, SignoriniCoulomb<>> world(d, SignoriniCoulomb<>(0.3));
+      const ShapeId shape = world.add_shape(regular_shape<ShapeT>(d));
+      for (int k = 0; k < 3; ++k)
+        world.add_grain(shape, Pose<S>(Vector(d / 2 * up + 2 * d * k * Vector::UnitX())), 2700);
+      world.add_wall(up, Vector::Zero());
+      world.set_gravity(-9.81 * up);
+      // The first axis of the frame of a mesh wall is the one along which it moves.
+      const typename S::Rotation down(S::contact_frame(-up));
+      FacetMesh<S> plate;
+      plate.vertices = {-Vector::Unit(1), Vector(3 * Vector::Unit(1))};
+      if (S::dim == 3) {
+        plate.vertices[1] -= 4 * Vector::Unit(S::dim - 1);
+        plate.vertices.push_back(3 * Vector::Unit(1) + 4 * Vector::Unit(S::dim - 1));
+      }
+      plate.facets.emplace_back();
+      for (std::uint32_t k = 0; k < S::dim; ++k) plate.facets[0][k] = k;
+      const Vector place = 1.5 * d * up;
+      const BodyId lid = is_mesh ? world.add_mesh_wall(plate, Pose<S>(place, down), WallSides::both)
+                                 : world.add_wall(-up, place);
+      world.set_wall_mass(lid, 1);
+      world.set_force(lid, -acceleration * up);
+      RestTest rest;
+      const double fall = std::sqrt(d / acceleration);
+      for (bool is_at_rest = false; !is_at_rest && world.time() < fall + 2;)
+        is_at_rest = rest.add(world, world.step(h), h);
+      CHECK(rest.is_at_rest());
+      CHECK(world.time() > fall);
+      CHECK(world.pose(lid).position.dot(up) == doctest::Approx(d).epsilon(0.01));
+    }
+}
+
+TEST_CASE("why a lid is not at rest") {
+  Slider<Disk<>> slider(0);
+  auto& world = slider.simulation;
+  const BodyId lid = world.add_wall({0, -1}, {0, 1});
+  world.set_wall_mass(lid, 1);
+  RestTest rest({.time = h});
+  CHECK(slider.step(rest, 0));  // neither force nor velocity
+  world.set_force(lid, {0, -0.01});
+  CHECK(!slider.step(rest, 0));
+  CHECK(rest.reason().starts_with(
+      "the grains do not carry the force on a wall with a mass, 1 of the load"));
+  world.set_force(lid, {0, 0});
+  world.set_velocity(lid, {0, -0.1});
+  CHECK(!slider.step(rest, 0));
+  CHECK(rest.reason().starts_with("a wall with a mass moves with 0.1 m/s, the limit is "));
 }
 
 TEST_CASE_TEMPLATE("forces that cancel to rounding are no load, others are", ShapeT,

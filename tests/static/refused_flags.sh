@@ -24,4 +24,12 @@ if ! "$compiler" --version | grep -q clang; then
     grep -q "error.*constants in double precision" || { echo "-fsingle-precision-constant: not said"; failed=1; }
   refused "-std=c++20 -fassociative-math -fno-signed-zeros -fno-trapping-math" "moreau needs sums in the order"
 fi
+# A second copy of the library, as that of a precompiled header.
+copy=$(mktemp -d)
+mkdir -p "$copy/moreau/core" && cp "$include/moreau/core/compiler.hpp" "$copy/moreau/core" && touch -d 2020-01-01 "$copy/moreau/core/compiler.hpp"
+output=$(printf '#include "%s/moreau/core/compiler.hpp"\n#include <moreau/moreau.hpp>\n' "$copy" |
+  "$compiler" -std=c++20 -E -o /dev/null "-I$include" -isystem "$eigen" -x c++ - 2>&1) && echo "a second copy is taken" && failed=1
+echo "$output" | grep -q "error.*there are two copies of moreau" || { echo "a second copy: not said"; failed=1; }
+[ "$(echo "$output" | grep -c 'error: ')" -le 2 ] || { echo "a second copy: lines of error"; failed=1; }
+rm -r "$copy"
 exit $failed

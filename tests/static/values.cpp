@@ -17,10 +17,12 @@ constexpr bool is_value<moreau::Value<Matrix>> = true;
 template <int N, class T>
 constexpr bool is_value<moreau::Components<N, T>> = true;
 
-/// Whether a result, its multiples, and its sums with itself and with Eigen's expressions are values.
+/// Whether a result, its multiples (also by numbers of the other precision), and its sums with itself and with Eigen's expressions are values.
 template <class Result, class X = std::decay_t<Result>>
 concept Plain = is_value<X> && requires(const X& x, typename X::Scalar t) {
   requires is_value<decltype(x / t)> && is_value<decltype(x * 2)> && is_value<decltype(t * x + x)>;
+  requires is_value<decltype(x / 2.0f)> && is_value<decltype(2.0f * x)> &&
+      is_value<decltype(x * 2.0)>;
   requires is_value<decltype(x - X::Zero())> && is_value<decltype(X::Zero() - x)>;
   requires is_value<decltype(-x)> && is_value<decltype(x.transpose() * x)>;
 };

@@ -21,6 +21,9 @@
 // | 44 | use of deleted function 'Materials<Law>::Materials(auto:1, const Law&) [with auto:1 = double]' |
 // | 45-47 | use of deleted function 'Placed<ShapeT>::Placed(const ShapeT&&)' |
 // | 48, 49 | template constraint failure for 'template<class ShapeT, ..> requires GrainShape<ShapeT> class Simulation' |
+// | 50, 51, 54-57 | assignment of read-only location '..' |
+// | 52 | passing 'const moreau::Value<Eigen::Matrix<double, 3, 1> >' as 'this' argument discards qualifiers |
+// | 53 | the same of 'Eigen::MatrixBase<..>::operator+=' |
 // | 37 | template constraint failure for 'template<class ... Shapes> .. class OneOf' |
 #include "moreau/boundary/drive.hpp"
 #include "moreau/measure/energy.hpp"
@@ -64,6 +67,16 @@ REFUSED(8, world.set_velocity(body, Eigen::Matrix<T, Eigen::Dynamic, 1>(3)));
 REFUSED(9, world.set_velocity(body, vector.transpose()));
 TAKEN(plane.set_spin(body, 1); plane.set_spin(body, {1.0}));
 REFUSED(10, world.set_spin(body, T(1)));
+// Results, of which a change would be lost.
+TAKEN((typename S::Vector(world.velocity(body))).x() = 3);
+REFUSED(50, world.velocity(body).x() = 3);
+REFUSED(51, world.velocity(body)[0] = 3);
+REFUSED(52, world.velocity(body) = vector);
+REFUSED(53, world.velocity(body) += vector);
+REFUSED(54, world.spin(body).z() = 3);
+REFUSED(55, plane.spin(body)[0] = 3);
+REFUSED(56, world.gravity().z() = -9.81);
+REFUSED(57, world.contact_impulse(body).x() = 0);
 REFUSED(11, plane.set_spin(body, {0, 0, 1}));
 REFUSED(12, world.set_force(body, {0, 1}));
 REFUSED(13, world.set_gravity({0, -9.81}));

@@ -9,7 +9,9 @@
 
 #include "moreau/io/snapshot.hpp"
 #include "moreau/sample/ballast.hpp"
+#include "moreau/shape/one_of.hpp"
 #include "moreau/shape/regular_shape.hpp"
+#include "moreau/shape/rounded.hpp"
 
 #include "types.hpp"
 #include "world/assemblies.hpp"
@@ -262,6 +264,9 @@ TEST_CASE_TEMPLATE("the width of a flake does not depend on its axes", ShapeT, P
   }
   const ShapeT flake{std::span<const Vector>(corners)};
   CHECK(detail::smallest_width(flake) == doctest::Approx(0.001));
+  CHECK(detail::smallest_width(Rounded<ShapeT>(flake, 0.002)) == doctest::Approx(0.005));
+  CHECK(detail::smallest_width(OneOf<BallIn<S>, Rounded<ShapeT>>(Rounded<ShapeT>(flake, 0.002))) ==
+        doctest::Approx(0.005));
   Simulation<ShapeT, SignoriniCoulomb<double>> world(0.05, SignoriniCoulomb<double>(0.4));
   const ShapeId shape = world.add_shape(flake);
   const Vector up = turn * Vector::Unit(S::dim - 1);

@@ -15,7 +15,8 @@
 // in series with a set-valued law: PressureServo works with it, too, and PressureLoad is simpler. Under
 // the other set-valued laws the servo does not reach its pressure.
 //
-// The servo moves the wall with the velocity v = gain (pressure - measured pressure). Let k be the
+// The servo moves the wall along its normal with the velocity v = gain (pressure - measured pressure); a velocity of the
+// wall along itself, as of the lid of a shear cell, stays as it is. Let k be the
 // stiffness of the sample in the direction of the wall [N/m] and h the step [s]. In each step the error
 // of the pressure is multiplied by 1 - gain k h / area. Keep gain k h / area below 1. If it exceeds 2,
 // the servo is unstable.
@@ -159,7 +160,7 @@ class PressureServo {
     require_positive(limit, self, "limit");
   }
 
-  /// Sets the velocity for the next step, from the pressure in the last step.
+  /// Sets the velocity along the normal for the next step, from the pressure in the last step.
   /// @param step length of the last step [s], > 0
   /// @throws std::invalid_argument if the body is not a half-space of the simulation or has a mass,
   ///                               or if the step or the area is not finite or not positive
@@ -171,9 +172,10 @@ class PressureServo {
     require(simulation.bodies().inverse_mass[wall_.index()].isZero(0), "PressureServo::apply",
             "wall", wall_,
             "must have a prescribed motion: contacts change the velocity of a wall with a mass");
-    const double speed = std::clamp(gain_ * missing, -limit_, limit_);
-    simulation.set_velocity(wall_,
-                            static_cast<Scalar>(speed) * detail::wall_normal(simulation, wall_));
+    const auto speed = static_cast<Scalar>(std::clamp(gain_ * missing, -limit_, limit_));
+    const typename Simulation::Vector normal = detail::wall_normal(simulation, wall_),
+                                      before = simulation.velocity(wall_);
+    simulation.set_velocity(wall_, before + (speed - normal.dot(before)) * normal);
   }
 
  private:

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
-// One line for a compiler, a language version or a flag that cannot compile the library, in place of
+// One line for a compiler, a language version, a flag or a second copy that cannot compile with the library, in place of
 // hundreds: the file that does not exist ends the compilation. Include it before everything else.
 #pragma once
+
+#ifdef MOREAU_IS_INCLUDED  // #pragma once leaves out the same file alone
+#error \
+    "there are two copies of moreau: a precompiled header (.gch, .pch) of another copy, or from before a change, or two include paths. Make the precompiled header anew, or remove one path."
+#include "moreau needs one copy of itself"
+#endif
+#define MOREAU_IS_INCLUDED
 
 #if !defined(__GNUC__) && !defined(__clang__)
 #error "moreau needs the vector extensions of g++ 12 or clang++ 14, or a later version of them."

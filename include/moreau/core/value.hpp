@@ -8,6 +8,9 @@
 //
 // Other functions of Eigen (head(), transpose(), cwiseAbs(), ...) still return expressions. Do not
 // store these with auto: give the type of the result, or call eval().
+//
+// The functions of a simulation return a constant Value: `velocity(a).x() = 3`, which would change a temporary and not
+// the body, does not compile. `auto v = velocity(a)` is a variable that can be changed.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,9 +36,9 @@ class Value : public Matrix {
 
 namespace detail {
 
-/// A number that an operator of Eigen takes beside a matrix of T.
-template <class Number, class T>
-concept FactorOf = std::integral<Number> || std::same_as<Number, T>;
+/// A number that an operator of Eigen takes beside a matrix, also one of another precision.
+template <class Number>
+concept Factor = std::integral<Number> || std::floating_point<Number>;
 
 template <class Matrix>
 const Matrix& plain(const Value<Matrix>& value) {
@@ -92,17 +95,17 @@ Value<M> operator-(const Eigen::MatrixBase<Other>& a, const Value<M>& b) {
   return Value<M>(a.derived() - detail::plain(b));
 }
 /// The multiple.
-template <class M, detail::FactorOf<typename M::Scalar> Number>
+template <class M, detail::Factor Number>
 Value<M> operator*(const Value<M>& a, Number factor) {
   return Value<M>(detail::plain(a) * static_cast<typename M::Scalar>(factor));
 }
 /// The multiple.
-template <class M, detail::FactorOf<typename M::Scalar> Number>
+template <class M, detail::Factor Number>
 Value<M> operator*(Number factor, const Value<M>& a) {
   return Value<M>(static_cast<typename M::Scalar>(factor) * detail::plain(a));
 }
 /// The quotient.
-template <class M, detail::FactorOf<typename M::Scalar> Number>
+template <class M, detail::Factor Number>
 Value<M> operator/(const Value<M>& a, Number divisor) {
   return Value<M>(detail::plain(a) / static_cast<typename M::Scalar>(divisor));
 }

@@ -157,7 +157,7 @@ class DistributedSimulation<Simulation<ShapeT, Law, Integrator, Broad, Solver>> 
   /// Pose of a wall, world axes [m].
   const Pose<S>& pose(BodyId wall) const { return world_.pose(local(wall)); }
   /// Velocity of a wall, world axes [m/s].
-  Vector velocity(BodyId wall) const { return world_.velocity(local(wall)); }
+  const Vector velocity(BodyId wall) const { return world_.velocity(local(wall)); }
   /// Sets the pose of a wall, world axes [m].
   void set_pose(BodyId wall, const Pose<S>& pose) { world_.set_pose(local(wall), pose); }
   /// Sets the velocity of a wall, world axes [m/s].

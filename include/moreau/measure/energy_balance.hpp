@@ -23,6 +23,7 @@
 //     of the tangential springs.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -104,11 +105,14 @@ class EnergyBalance {
   }
 
   /// Adds the last step to the balance. Forces and gravity must still be those of this step.
-  /// @param step length of the step [s], > 0
-  /// @throws std::invalid_argument if the step is not positive, or if bodies were added or removed
-  ///                               since the start or the last rebase()
+  /// @param step length of the step [s], > 0: that of the report
+  /// @throws std::invalid_argument if the step is not positive or not that of the report, or if bodies were added or
+  ///                               removed since the start or the last rebase()
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
+    require_positive(step, "EnergyBalance::add", "step");
+    require(std::abs(double(step) - report.step) <= 1e-6 * double(step), "EnergyBalance::add",
+            "step", step, "must be the step of the report");
     add_work_of_forces(simulation.bodies(), simulation.gravity(), step);
     terms_.drives += work_of_drives(simulation.bodies(), simulation.contacts());
     add_report(report);
@@ -209,7 +213,6 @@ double EnergyBalance<S>::work_on(const Bodies<S>& bodies, std::uint32_t i, const
 template <class S>
 void EnergyBalance<S>::add_work_of_forces(const Bodies<S>& bodies, const Vector& gravity,
                                           Scalar step) {
-  require_positive(step, "EnergyBalance::add", "step");
   require(
       bodies.id == ids_, "EnergyBalance::add", "simulation", "(bodies were added or removed)",
       "must have the bodies of the start of the balance or of the last rebase(): call rebase()");

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 #include <string>
 
 #include "moreau/core/double_sum.hpp"
 #include "moreau/core/error.hpp"
+#include "moreau/core/twist.hpp"
 #include "moreau/measure/energy.hpp"
 #include "moreau/world/step_report.hpp"
 
@@ -18,12 +20,12 @@ namespace moreau {
 
 /// When a packing counts as at rest.
 struct RestOptions {
-  /// Largest speed of the grains, the root of 2 x kinetic energy / mass [m/s]. If it is 0, it is the speed at
-  /// which a grain rises by 1e-5 of the grain size under the gravity of the simulation.
+  /// Largest speed of the grains, the root of 2 x kinetic energy / mass, and of each wall with a mass along its normal
+  /// [m/s]. If it is 0, it is the speed at which a grain rises by 1e-5 of the grain size under the gravity of the simulation.
   double speed = 0;
   /// Largest part of the load that walls and obstacles do not carry [-]. The load is the sum of the weights of the
   /// grains and the forces applied to them. It is not tested if it is zero to rounding: without gravity and applied
-  /// forces, or with forces that cancel.
+  /// forces, or with forces that cancel. The same of the force on each wall with a mass, which the grains carry.
   double load = 0.01;
   /// Time for which speed and load must stay within their limits, and all steps must be solved [s].
   double time = 0.05;
@@ -36,8 +38,8 @@ struct RestOptions {
 ///     moreau::RestTest rest;
 ///     while (!rest.add(simulation, simulation.step(h), h)) {}
 ///
-/// It does so if for RestOptions::time every step was solved, the grains were slow, and walls and obstacles carried
-/// the grains. Grains whose motion is prescribed are obstacles.
+/// It does so if for RestOptions::time every step was solved, grains and walls with a mass were slow, and walls and
+/// obstacles carried the grains. Grains whose motion is prescribed are obstacles.
 class RestTest {
  public:
   /// @throws std::invalid_argument for an option that is not finite or out of range
@@ -81,10 +83,10 @@ class RestTest {
   /// Whether the packing was at rest after the last step.
   bool is_at_rest() const { return time_ > 0 && time_ >= options_.time * (1 - 1e-9); }
   double time() const { return time_; }  ///< for which the conditions hold [s]; 0 if they do not
-  double speed() const {
-    return speed_;
-  }  ///< of the grains after the last step [m/s], see RestOptions
-  /// Part of the weight that walls and obstacles did not carry in the last step [-].
+  /// After the last step: of the grains, or of the fastest wall with a mass if that is larger [m/s], see RestOptions.
+  double speed() const { return speed_; }
+  /// Part of the weight that walls and obstacles did not carry in the last step, or of the force on a wall with a mass and
+  /// the weight that the grains did not carry, if that is larger [-].
   double missing_load() const { return missing_load_; }
   /// Why the packing is not at rest, as a sentence with numbers; empty if it is. It names the first that holds of: no step
   /// was added, the last step was not solved, the time is too short, the grains are too fast, the load is not carried.
@@ -99,10 +101,13 @@ class RestTest {
     else if (time_ > 0)
       text << "at rest for " << time_ << " s of " << options_.time << " s";
     else if (speed_ > limit_)
-      text << "the grains move with " << speed_ << " m/s, the limit is " << limit_ << " m/s";
+      text << (is_of_wall_ ? "a wall with a mass moves with " : "the grains move with ") << speed_
+           << " m/s, the limit is " << limit_ << " m/s";
     else
-      text << "walls and obstacles do not carry " << missing_load_
-           << " of the weight, the limit is " << options_.load;
+      text << (is_load_of_wall_ ? "the grains do not carry the force on a wall with a mass, "
+                                : "walls and obstacles do not carry ")
+           << missing_load_ << (is_load_of_wall_ ? " of the load" : " of the weight")
+           << ", the limit is " << options_.load;
     return text.str();
   }
 
@@ -148,11 +153,36 @@ class RestTest {
     missing_load_ = load.norm() > rounding * loads
                         ? (carried.template cast<double>() - load).norm() / load.norm()
                         : 0;
+    measure_walls(simulation, step, load.norm());
+  }
+  /// Walls with a mass: along its normal each is slow, and grains carry the force on it.
+  /// @param load of the grains [N]
+  template <class Simulation>
+  void measure_walls(const Simulation& simulation, double step, double load) {
+    using S = typename Simulation::S;
+    using Vector = typename S::Vector;
+    const auto& bodies = simulation.bodies();
+    is_of_wall_ = is_load_of_wall_ = false;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (simulation.is_grain(i) || bodies.is_prescribed(i)) continue;
+      const Vector normal = bodies.axes(i).col(0);
+      const auto along = [&](const Vector& x) { return double(normal.dot(x)); };
+      const double speed = std::abs(along(linear<S>(bodies.velocity[i]))),
+                   force = along(linear<S>(bodies.force[i])),
+                   push = along(simulation.contacts().impulse_on(std::uint32_t(i))) / step;
+      // The impulses have errors of the solver, which are relative to those of all contacts; without any, it is in the air.
+      const double share = force == 0  ? 0
+                           : push == 0 ? 1
+                                       : std::abs(force + push) / (std::abs(force) + load);
+      if (speed > speed_) speed_ = speed, is_of_wall_ = true;
+      if (share > missing_load_) missing_load_ = share, is_load_of_wall_ = true;
+    }
   }
 
   RestOptions options_;
   double time_ = 0, speed_ = 0, missing_load_ = 0, limit_ = 0;
   bool solved_ = false;
+  bool is_of_wall_ = false, is_load_of_wall_ = false;  // whether a wall has the speed, the load
 };
 
 }  // namespace moreau

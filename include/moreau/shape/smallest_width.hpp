@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "moreau/core/aabb.hpp"
 #include "moreau/core/compiled_once.hpp"
@@ -12,8 +13,8 @@
 namespace moreau::detail {
 
 /// The smallest width of a grain [m]. A step refuses overlaps at the start that are deep relative to it. For a polytope it is the smallest
-/// width along the normal of a face, for a compound that of its thinnest part, for another shape the smallest extent of its
-/// box in body axes.
+/// width along the normal of a face, for a rounded polytope that of its core and twice the radius, for a compound that of its
+/// thinnest part, for another shape the smallest extent of its box in body axes.
 template <class ShapeT>
 MOREAU_INLINED inline typename SpaceOf<ShapeT>::Scalar smallest_width(const ShapeT& shape) {
   using S = SpaceOf<ShapeT>;
@@ -33,6 +34,10 @@ MOREAU_INLINED inline typename SpaceOf<ShapeT>::Scalar smallest_width(const Shap
       least = std::min(least, depth);
     }
     return least;
+  } else if constexpr (requires {
+                         requires Polytope<std::remove_cvref_t<decltype(shape.core())>>;
+                       }) {
+    return smallest_width(shape.core()) + 2 * shape.radius();
   } else if constexpr (requires { shape.visit([](const auto&) {}); }) {
     return shape.visit([](const auto& held) { return smallest_width(held); });
   } else {

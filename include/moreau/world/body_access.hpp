@@ -41,14 +41,14 @@ class BodyAccess {
   }
   /// Velocity of the centre of mass, world axes [m/s].
   /// @throws std::invalid_argument for a body that is not of this simulation
-  Value<typename S::Vector> velocity(BodyId body) const {
+  const Value<typename S::Vector> velocity(BodyId body) const {
     assembly_.require_body(body, "Simulation::velocity");
     return linear<S>(bodies().velocity[body.index()]);
   }
   /// Angular velocity, world axes [rad/s]: a vector in space; in the plane a vector with one
   /// component, > 0 from x to y.
   /// @throws std::invalid_argument for a body that is not of this simulation
-  Value<typename S::Angular> spin(BodyId body) const {
+  const Value<typename S::Angular> spin(BodyId body) const {
     assembly_.require_body(body, "Simulation::spin");
     return angular<S>(bodies().velocity[body.index()]);
   }

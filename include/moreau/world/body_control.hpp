@@ -95,7 +95,8 @@ class BodyControl : public BodyAccess<ShapeT> {
     angular<S>(assembly_.bodies().force[body.index()]) = torque;
   }
   /// Sets the velocity of the centre, world axes [m/s]. A body whose motion is prescribed, such as
-  /// a wall without set_wall_mass(), keeps it.
+  /// a wall without set_wall_mass(), keeps it. A wall with a mass begins the next step with it, and forces and contacts
+  /// change it along the normal: a call before each step would hold a lid back, VelocityDrive leaves this component as it is.
   /// @throws std::invalid_argument for a body that is not of this simulation or a velocity that is
   ///         not finite
   void set_velocity(BodyId body, const VectorArgument<S>& velocity) {

@@ -346,13 +346,13 @@ class Simulation : public BodyControl<ShapeT> {
   const OverlapCorrection<S>& correction() const requires set_valued {
     return dynamics_.correction();
   }
-  Value<Vector> gravity() const { return gravity_; }  ///< world axes [m/s^2]
+  const Value<Vector> gravity() const { return gravity_; }  ///< world axes [m/s^2]
 
   /// Sum of the impulses that a body received from its contacts in the last step, attraction
   /// included, world axes [N s]. Two bodies of prescribed motion have no contact. A call looks at all contacts: for many
   /// bodies, add up contacts() in one pass.
   /// @throws std::invalid_argument for a body that is not of this simulation
-  Value<Vector> contact_impulse(BodyId body) const {
+  const Value<Vector> contact_impulse(BodyId body) const {
     assembly_.require_body(body, "Simulation::contact_impulse");
     return contacts_.impulse_on(body.value);
   }
