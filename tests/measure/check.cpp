@@ -13,7 +13,9 @@
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
+#include "moreau/mesh/facet_mesh.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/shape/polyhedron.hpp"
 #include "moreau/shape/regular_shape.hpp"
@@ -575,5 +577,223 @@ TEST_CASE_TEMPLATE("check: a grain that has drifted through many periodic cells"
     CHECK(all.size() == (share > 1 ? 1 : 0));
     if (share > 1) CHECK(one_contains(all, "move grains by whole periodic cells (set_pose)"));
     if (share > 1) CHECK(one_contains(all, "grain 1 is "));
+  }
+}
+
+TEST_CASE_TEMPLATE(
+    "check: a mesh wall whose facets are turned round, from behind which grains pass", ShapeT,
+    MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>, Disk<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  // A floor at height 0: two facets that join, and in space a third corner.
+  FacetMesh<S> floor;
+  for (const T x : {T(-1), T(0), T(1)})
+    floor.vertices.push_back(x * Vector::UnitX() +
+                             (S::dim == 3 && x != 0 ? T(-1) : T(0)) * Vector::Unit(1));
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    floor.facets.emplace_back();
+    floor.facets[k][0] = k + 1, floor.facets[k][1] = k;  // in the plane the outside is on the right
+  }
+  if (S::dim == 3) {
+    floor.vertices[1] = -Vector::Unit(1);
+    floor.vertices.push_back(Vector::Unit(1));
+    for (auto& facet : floor.facets) facet[S::dim - 1] = 3;
+    for (auto& facet : floor.facets) std::swap(facet[0], facet[1]);
+  }
+  for (const bool turned : {false, true})
+    for (const WallSides sides : {WallSides::outside, WallSides::both})
+      for (const bool added_below : {false, true}) {
+        CAPTURE(turned);
+        CAPTURE(added_below);
+        Simulation<ShapeT, Coulomb> world(T(0.02), Materials<Coulomb>(1, Coulomb(T(0.5))));
+        auto mesh = floor;
+        if (turned)
+          for (auto& facet : mesh.facets) std::swap(facet[0], facet[1]);
+        const BodyId wall = world.add_mesh_wall(mesh, Pose<S>(Vector(T(0.3) * up)), sides);
+        const ShapeT grain = regular_shape<ShapeT>(T(0.02));
+        const ShapeId shape = world.add_shape(grain);
+        const T below = T(-0.97) * circumradius(grain);  // a polytope is held up to its inradius
+        for (int k = 0; k < 2; ++k)
+          world.add_grain(shape,
+                          Pose<S>(Vector((T(0.3) + (added_below ? below : T(0.012))) * up +
+                                         T(0.2 * k - 0.1) * Vector::UnitX())),
+                          2700);
+        world.add_wall(up, Vector::Zero());  // below
+        world.set_gravity(T(-9.81) * up);
+        world.allow_overlaps();
+        bool said = false;
+        for (int k = 0; k < 200; ++k)
+          for (const std::string& sentence : check(world, world.step(T(5e-4))))
+            if (sentence.find("of mesh wall " + std::to_string(wall.index()) +
+                              ", which holds grains on one side") != std::string::npos)
+              said = true;
+        const bool is_one_sided = sides == WallSides::outside;
+        // From below the grains are behind the wall that faces up, and above one that faces down until they have passed.
+        CHECK(said == (is_one_sided && turned != added_below));
+        CHECK((world.pose(world.grain(0)).position.dot(up) > T(0.3)) ==
+              (!added_below && (!turned || !is_one_sided)));
+      }
+}
+
+TEST_CASE("check: a thin plate on a thin wall, and a grain beside a rim, are in front of it") {
+  World world(0.002, Materials<Law>(1, Law(0.5)));
+  TriangleMesh<> box;  // 1 mm thick, the outside outside
+  for (int k = 0; k < 8; ++k)
+    box.vertices.push_back({k & 1 ? 0.1 : -0.1, k & 2 ? 0.1 : -0.1, k & 4 ? 0.0 : -0.001});
+  const std::uint32_t sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& side : sides) {
+    box.facets.push_back({side[0], side[1], side[2]});
+    box.facets.push_back({side[0], side[2], side[3]});
+  }
+  world.add_mesh_wall(box);
+  const ShapeId plate = world.add_shape(cuboid<Polyhedron<>>({0.03, 0.03, 0.001}));
+  world.add_grain(plate, Pose<Space<3>>({0, 0, 0.001}), 2700);
+  world.add_grain(plate, Pose<Space<3>>({0.131, 0, -0.0005}), 2700);  // falls beside the wall
+  world.set_gravity({0, 0, -9.81});
+  CHECK(run(world, 2e-4, 100).empty());
+}
+
+TEST_CASE_TEMPLATE(
+    "check: a lid without weight, walls in one place, a spin in revolutions per minute", ShapeT,
+    MOREAU_TYPES((Polyhedron<>, Disk<>), (Polygon<>, Ball<>, Disk<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  constexpr T size = T(0.02), h = T(1e-4);
+  const auto box = [&] {
+    Simulation<ShapeT, Coulomb> made(size, Materials<Coulomb>(1, Coulomb(T(0.5))));
+    made.add_wall(up, Vector::Zero());
+    made.add_wall(-up, Vector(3 * size * up));
+    made.add_grain(made.add_shape(regular_shape<ShapeT>(size)), Pose<S>(Vector(size / 2 * up)),
+                   2700);
+    made.set_gravity(T(-9.81) * up);
+    return made;
+  };
+  const auto says = [](auto& simulation, const char* text) {
+    const auto all = check(simulation, simulation.step(h));
+    return all.size() == 1 && all[0].find(text) != std::string::npos;
+  };
+  auto lid = box();
+  CHECK(check(lid, lid.step(h)).empty());
+  lid.set_wall_mass(BodyId(1), 5);
+  CHECK(says(lid, "wall 1 has a mass of 5 kg, and no force acts on it: gravity does not act on"));
+  CHECK(says(lid, "with its weight of 49.05 N"));
+  lid.set_force(BodyId(1), T(-1e-3) * up);
+  CHECK(check(lid, lid.step(h)).empty());
+  // Neither of a wall that gravity pulls away from the grains, nor of one beside them.
+  auto floor = box();
+  floor.set_wall_mass(BodyId(0), 5);
+  CHECK(check(floor, floor.step(h)).empty());
+  auto side = box();
+  side.set_wall_mass(side.add_wall(Vector::UnitX(), Vector(-size * Vector::UnitX())), 5);
+  CHECK(check(side, side.step(h)).empty());
+
+  for (const T apart : {T(0), T(5e-4) * size, T(0.01) * size}) {
+    auto twice = box();
+    twice.add_wall(up, Vector(7 * Vector::UnitX() - apart * up));
+    const auto all = check(twice, twice.step(h));
+    CHECK(one_contains(all, "walls 0 and 3 lie in the same plane") == (apart < T(1e-3) * size));
+    CHECK(all.size() == std::size_t(apart < T(1e-3) * size));
+  }
+
+  const auto radius = T(circumradius(regular_shape<ShapeT>(size)));
+  for (const T share : {T(0.4), T(0.9), T(1.1), T(20)})  // of half the grain size
+    for (const bool is_obstacle : {false, true}) {
+      CAPTURE(share);
+      CAPTURE(is_obstacle);
+      auto turning = box();
+      const BodyId grain(2);
+      // Without friction between grains and walls, which would stop it; an obstacle turns beside a grain.
+      turning.set_materials(Materials<Coulomb>(1, Coulomb(T(0))));
+      turning.set_pose(grain, Pose<S>(Vector(T(1.5) * size * up)));
+      const T spin = share * size / 2 / h / (is_obstacle ? size / 2 : radius);
+      turning.set_spin(grain, typename S::Angular(spin * S::Angular::Unit(0)));
+      if (is_obstacle) {
+        turning.prescribe_motion(grain);
+        turning.add_grain(ShapeId(0), Pose<S>(Vector(T(0.5) * size * up)), 2700);
+      }
+      const auto all = check(turning, turning.step(h));
+      const bool is_ball = radius < T(0.51) * size;
+      if (!is_obstacle || is_ball)
+        CHECK(one_contains(all, "is in revolutions per minute, type ") == (share > 1));
+      if (!is_obstacle) CHECK(all.size() == std::size_t(share > 1));
+    }
+}
+
+TEST_CASE_TEMPLATE("check: a drum that turns too fast", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (Disk<float>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (const T spin : {T(10), T(3000)}) {
+    Simulation<ShapeT, Coulomb> world(T(0.01), Materials<Coulomb>(1, Coulomb(T(0.5))));
+    const typename S::Angular axis = S::Angular::Unit(S::angular_dim / 2);
+    const BodyId drum = world.add_cylinder(Vector::Zero(), axis, T(0.1));
+    world.add_grain(world.add_shape(ShapeT(T(0.005))), Pose<S>(Vector(T(-0.095) * up)), 2500);
+    world.set_gravity(T(-9.81) * up);
+    world.set_spin(drum, typename S::Angular(spin * axis));
+    const auto all = check(world, world.step(T(1e-4)));
+    CHECK(one_contains(all, "body 0 turns by 0.3 rad in the step: its surface moves by 0.03 m") ==
+          (spin > 100));
+    CHECK(one_contains(all, "type 314.159 rad/s") == (spin > 100));
+    CHECK(all.empty() == (spin < 100));
+  }
+}
+
+TEST_CASE_TEMPLATE("check: an overlap by a body that is driven", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  const Vector along = Vector::UnitX();
+  for (const bool by_obstacle : {false, true}) {
+    CAPTURE(by_obstacle);
+    Simulation<ShapeT, Law> world(0.02, Materials<Law>(1, Law(0.3)));
+    world.add_wall(along, Vector(-0.01 * along));
+    const ShapeId shape = world.add_shape(regular_shape<ShapeT>(0.02));
+    world.add_grain(shape, {}, 2700);
+    BodyId piston;
+    if (by_obstacle) {
+      piston = world.add_grain(shape, Pose<S>(Vector(0.02 * along)), 2700);
+      world.prescribe_motion(piston);
+    } else {
+      piston = world.add_wall(-along, Vector(0.01 * along));
+    }
+    world.set_velocity(piston, Vector(-0.05 * along));
+    std::vector<std::string> all;
+    for (int k = 0; k < 30; ++k) all = check(world, world.step(1e-3));
+    CHECK(one_contains(all, "If body 2, whose motion is prescribed, presses grains that cannot"));
+    CHECK(!one_contains(all, "stiffer contacts"));
+    world.set_velocity(piston, Vector(0.05 * along));
+    all = check(world, world.step(1e-3));
+    CHECK(one_contains(all, "whose motion is prescribed, presses") == by_obstacle);
+  }
+}
+
+TEST_CASE_TEMPLATE("check: a step that does not resolve an impact", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (Disk<float>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Springs = LinearSpringDashpot<T>;
+  const Springs springs(T(1e5), T(5e4), T(0.4), T(0.5));
+  for (const T share : {T(0.05), T(0.19), T(0.21), T(0.5)}) {
+    Simulation<ShapeT, Springs> world(T(0.02), Materials<Springs>(1, springs));
+    const ShapeId shape = world.add_shape(ShapeT(T(0.01)));
+    for (int k = 0; k < 2; ++k)
+      world.add_grain(shape, Pose<S>(Vector(T(0.05 * k + 0.02) * Vector::Unit(S::dim - 1))), 2700);
+    world.add_wall(Vector::Unit(S::dim - 1), Vector::Zero());
+    const T h = share * springs.duration(world.bodies().grain_mass[0] / 2);
+    const auto all = check(world, world.step(h));
+    CHECK(one_contains(all, "does not resolve an impact of two of the lightest grains") ==
+          (share > T(0.2)));
+    CHECK(all.size() == std::size_t(share > T(0.2)));
   }
 }

@@ -8,6 +8,7 @@
 
 #include "moreau/measure/detail/check_bonds.hpp"
 #include "moreau/measure/detail/check_creep.hpp"
+#include "moreau/measure/detail/check_meshes.hpp"
 #include "moreau/measure/detail/check_motion.hpp"
 #include "moreau/measure/detail/check_report.hpp"
 #include "moreau/measure/detail/check_units.hpp"
@@ -51,7 +52,7 @@ class SentencesOnce {
 ///            tolerances are relative. A plate or a stick among the grains allows a grain size down to its thickness
 ///          - an overlap beyond 1 % of the grain size; two bodies are named. The sentence tells an overlap at the
 ///            start (grains were added inside one another), one that arose in the step (a fast approach: the step
-///            is too long), and one that is older
+///            is too long), and one that is older, with a body of prescribed motion that presses
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
@@ -70,7 +71,11 @@ class SentencesOnce {
 ///            lies there
 ///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass, or along a wall that
 ///            has one; the motion of all bodies is prescribed
-///          - a wall with a mass has passed a parallel wall that faces it
+///          - a wall with a mass has passed a parallel wall that faces it; two walls lie in the same plane; a wall with a mass
+///            above grains has no force, as gravity does not act on it
+///          - a grain, a wall or an obstacle turns so fast that its surface moves by more than half a grain size in the step (rpm)
+///          - a grain that is not compound lies behind the nearest facet of a mesh wall with one side
+///          - the step is longer than a fifth of the duration of an impact of the lightest grains, under a law with duration()
 ///          - a grain moves by more than a grain size in the step, although no contact approaches as fast
 ///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
 ///            will ever move
@@ -87,10 +92,12 @@ template <class Simulation>
     simulation.contact_problem();
   }
   ? detail::older_overlap : detail::overlap_of_springs;
+  const double presses = report.max_overlap > 0.01 * size ? detail::pressing_body(simulation) : -1;
   detail::check_report(found, report, size,
-                       {simulation.tolerances().margin * size, is_first, older});
+                       {simulation.tolerances().margin * size, is_first, older, presses});
   detail::check_units(found, simulation, report.step);
   detail::check_motion(found, simulation, report);
+  detail::check_meshes(found, simulation);
   detail::check_creep(found, simulation, report);
   if constexpr (requires { simulation.missed_gap(); }) detail::check_bonds(found, simulation);
   if (!is_first && detail::is_idle(simulation, report))

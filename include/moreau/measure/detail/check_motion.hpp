@@ -2,17 +2,41 @@
 // The part of check() that looks for bodies that cannot move as they are told to, or that move too far in a step.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/core/twist.hpp"
 #include "moreau/measure/detail/check_report.hpp"
+#include "moreau/shape/circumradius.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
 
-/// Names a wall with a mass that has passed another one.
+/// A body of prescribed motion that moves towards grains: a half-space along its normal, a mesh wall or an obstacle in any
+/// direction; -1 if there is none.
+template <class Simulation>
+MOREAU_INLINED inline double pressing_body(const Simulation& simulation) {
+  using S = typename Simulation::S;
+  const auto& bodies = simulation.bodies();
+  const auto speed_of = [&](std::size_t i, const typename S::Vector& v) {
+    const typename S::Vector normal = bodies.axes(i).col(0);
+    return simulation.is_grain(i) ? v.norm() : normal.dot(v);
+  };
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies.exists(i) && bodies.is_prescribed(i) &&
+        speed_of(i, linear<S>(bodies.velocity[i])) > 0)
+      return double(i);
+  for (const auto& mesh : simulation.mesh_walls())
+    if (const std::size_t i = mesh.body.index();
+        bodies.is_prescribed(i) && linear<S>(bodies.velocity[i]).norm() > 0)
+      return double(i);
+  return -1;
+}
+
+/// Names a wall with a mass that has passed another one, and two walls in one place.
 template <class Simulation>
 MOREAU_INLINED inline void check_walls(Findings& found, const Simulation& simulation) {
   using Vector = typename Simulation::S::Vector;
@@ -23,12 +47,73 @@ MOREAU_INLINED inline void check_walls(Findings& found, const Simulation& simula
       const std::size_t i = wall.index(), k = other.index();
       const Vector normal = bodies.axes(i).col(0), facing = bodies.axes(k).col(0);
       const Vector way = bodies.pose[k].position - bodies.pose[i].position;
+      if (i < k && normal.dot(facing) > Scalar(0.999999) &&
+          bodies.velocity[i] == bodies.velocity[k] &&
+          std::abs(normal.dot(way)) <= Scalar(1e-3) * simulation.grain_size())
+        return found.say(
+            "walls % and % lie in the same plane: grains touch both, each has a part of the force, "
+            "and springs and attraction act twice. Add the wall once",
+            {double(i), double(k)});
       if (bodies.is_prescribed(i) || normal.dot(way) >= 0 || normal.dot(facing) >= Scalar(-0.9999))
         continue;
       return found.say(
           "wall % has passed wall %, which it faces: two walls never touch, whatever their masses",
           {double(i), double(k)});
     }
+}
+
+/// Names a wall with a mass above grains on which no force acts.
+template <class Simulation>
+MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simulation) {
+  using S = typename Simulation::S;
+  using Vector = typename S::Vector;
+  const auto& bodies = simulation.bodies();
+  const Vector gravity = simulation.gravity();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto inverse = double(bodies.inverse_mass[i][0]);
+    if (simulation.is_grain(i) || !(inverse > 0) || !bodies.force[i].isZero(0)) continue;
+    const Vector normal = bodies.axes(i).col(0);
+    const auto pull = double(normal.dot(gravity));
+    if (!(pull > 0.1 * double(gravity.norm()))) continue;
+    return found.say(
+        "wall % has a mass of % kg, and no force acts on it: gravity does not act on walls. If it "
+        "shall press with its weight of % N, call set_force(), with mass x gravity",
+        {double(i), 1 / inverse, pull / inverse});
+  }
+}
+
+/// Names a body whose surface moves by more than half a grain size in the step because it turns: of walls and obstacles where
+/// they touch grains.
+template <class Simulation>
+MOREAU_INLINED inline void check_spins(Findings& found, const Simulation& simulation, double step) {
+  using S = typename Simulation::S;
+  const auto& bodies = simulation.bodies();
+  double most = double(simulation.grain_size()) / 2 / step;
+  std::size_t fastest = bodies.size();
+  const auto take = [&](std::size_t i, double speed) {
+    if (speed > most) fastest = i, most = speed;
+  };
+  const auto spin_of = [&](std::size_t i) ->
+      typename S::Angular { return angular<S>(bodies.velocity[i]); };
+  for (std::size_t k = 0; k < simulation.grain_count(); ++k) {
+    const std::size_t i = simulation.grain(k).index();
+    if (bodies.rotates(i))
+      take(i, double(spin_of(i).norm() * circumradius(simulation.shape_of_grain(k))));
+  }
+  const auto& points = simulation.contacts().points;
+  for (const auto& point : points)
+    for (const bool is_b : {false, true}) {
+      const std::size_t i = is_b ? point.b : point.a;
+      if (!bodies.rotates(i) && !spin_of(i).isZero(0))
+        take(i, double(S::spin(spin_of(i), is_b ? point.lever_b : point.lever_a).norm()));
+    }
+  if (fastest == bodies.size()) return;
+  const auto spin = double(spin_of(fastest).norm());
+  found.say(
+      "body % turns by % rad in the step: its surface moves by % m, % times the grain size. Use a "
+      "shorter step; if its spin of % is in revolutions per minute, type % rad/s",
+      {double(fastest), spin * step, most * step, most * step / double(simulation.grain_size()),
+       spin, spin * std::numbers::pi / 30});
 }
 
 /// Names a body whose force has no effect, or only a part of it, a grain that moves by more than a grain size in the step
@@ -66,6 +151,8 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
     if (speed > most) fastest = i, most = speed;
   }
   check_walls(found, simulation);
+  check_weights(found, simulation);
+  check_spins(found, simulation, report.step);
   if (in_vain < bodies.size())
     found.say(
         bodies.is_prescribed(in_vain)

@@ -67,6 +67,12 @@ inline constexpr const char* older_overlap =
     "overlap of % m of the bodies % and %, % of the grain size: it is older than this step, in "
     "which no surfaces approach as far. Use a shorter step, stiffer contacts if they are "
     "compliant, and add no grains inside others";
+/// The same where a body of prescribed motion presses.
+inline constexpr const char* overlap_by_drive =
+    "overlap of % m of the bodies % and %, % of the grain size: it is older than this step. If "
+    "body %, whose motion is prescribed, presses grains that cannot give way, they overlap more in "
+    "each step: stop it, or let a force move it (set_wall_mass(), set_force()). Else use a shorter "
+    "step, and add no grains inside others";
 /// The same under a regularized law.
 inline constexpr const char* overlap_of_springs =
     "overlap of % m of the bodies % and %, % of the grain size: the springs of the law are as "
@@ -77,20 +83,21 @@ struct OverlapScene {
   double margin = 0;                  ///< of detection [m]
   bool is_first = false;              ///< whether no step was made before
   const char* older = older_overlap;  ///< the sentence about an overlap that is older than the step
+  double presses = -1;  ///< a body of prescribed motion that moves towards grains; < 0: none
 };
 
 /// Names the deepest overlap, with the advice for its cause:
 ///   - in the first step it was there at the start;
 ///   - if two surfaces that approach move as far in the step, it arose in the step: an impact;
-///   - else it arose before, in a step that was too long, with a body that was added, or by compliance, as is common
-///     under a regularized law.
+///   - else it arose before, in a step that was too long, with a body that was added, by a body of prescribed motion that
+///     presses, or by compliance, as is common under a regularized law.
 [[gnu::cold]] inline void check_overlap(Findings& found, const StepReport& report, double size,
                                         const OverlapScene& scene) {
   if (!(report.max_overlap > 0.01 * size)) return;
   const double motion = report.approach * scene.margin;
   const std::initializer_list<double> numbers = {report.max_overlap, double(report.deepest_a),
                                                  double(report.deepest_b),
-                                                 report.max_overlap / size};
+                                                 report.max_overlap / size, scene.presses};
   if (scene.is_first)
     return found.say(
         "overlap of % m of the bodies % and % at the start, % of the grain size. Add grains that "
@@ -102,7 +109,8 @@ struct OverlapScene {
         "which surfaces approach by % m. Use a shorter step: half the step halves the overlap",
         {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
          report.max_overlap / size, motion});
-  found.say(scene.older, numbers);
+  found.say(scene.older == older_overlap && scene.presses >= 0 ? overlap_by_drive : scene.older,
+            numbers);
 }
 
 /// What the solver did not reach.
