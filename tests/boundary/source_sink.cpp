@@ -11,6 +11,7 @@
 #include "moreau/boundary/source.hpp"
 #include "moreau/detect/collide.hpp"
 #include "moreau/io/snapshot.hpp"
+#include "moreau/sample/concave_mesh.hpp"
 
 #include "types.hpp"
 #include "world/assemblies.hpp"
@@ -83,6 +84,27 @@ TEST_CASE_TEMPLATE("a grid of points finds all that are near", S,
       if ((points[i] - x).norm() < reach) CHECK(found.count(i) == 1);
     CHECK(grid.any_near(points.front(), [](std::uint32_t number) { return number == 0; }));
   }
+}
+
+TEST_CASE_TEMPLATE("a source puts no grain into the solid of a closed mesh wall", ShapeT,
+                   MOREAU_TYPES((Disk<>, Ball<>), (Polygon<>, Polyhedron<>))) {
+  using S = SpaceOf<ShapeT>;
+  using Vector = typename S::Vector;
+  Simulation<ShapeT, SignoriniCoulomb<>> world(0.01, SignoriniCoulomb<>(0.4));
+  const FacetMesh<S> solid = star_mesh<S>([](const Vector&) { return 0.08; }, 2);
+  const Vector place = Vector::Constant(0.1);
+  world.add_mesh_wall(solid, Pose<S>(place));
+  SourceOptions<S> options;
+  options.region = {Vector::Zero(), Vector::Constant(0.2)};
+  options.shapes = {world.add_shape(regular_shape<ShapeT>(0.01))};
+  options.density = 2700;
+  options.grain_limit = 60;
+  options.trials = 200;
+  Source<S> source(options);
+  source.apply(world, h);
+  CHECK(world.grain_count() > 20);
+  for (const BodyId grain : world.grains())
+    CHECK((world.pose(grain).position - place).norm() > 0.08);
 }
 
 TEST_CASE_TEMPLATE("a source fills its box up to its limit, without overlaps", ShapeT,

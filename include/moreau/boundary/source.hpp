@@ -31,6 +31,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/small_matrix.hpp"
 #include "moreau/core/space.hpp"
+#include "moreau/detect/pairs/behind_facet.hpp"
 #include "moreau/sample/random_rotation.hpp"
 #include "moreau/shape/circumradius.hpp"
 
@@ -60,7 +61,8 @@ struct SourceOptions {
 
 /// Adds grains at random places in a box, with random rotations and a given velocity, at a given rate
 /// or up to a given number of grains. A new grain overlaps no grain and no wall: its bounding box, or
-/// the ball of its circumradius, is apart from the bounding box, or the ball, of each other body.
+/// the ball of its circumradius, is apart from the bounding box, or the ball, of each other body. None is
+/// placed inside of the solid that a closed mesh wall with one side bounds.
 ///
 /// The same seed gives the same grains. Snapshots can contain a source: it then continues with the
 /// same random numbers. The options are not part of a snapshot.
@@ -243,9 +245,16 @@ class Source {
                                 const auto height = side.normal.dot(center) - side.offset;
                                 overlaps = overlaps || std::abs(height) < grain.radius;
                               });
-      if (overlaps) return true;
+      if (overlaps || is_inside(mesh.shape, center)) return true;
     }
     return false;
+  }
+
+  /// Whether a point lies inside of the solid that a closed mesh with one side bounds, in its frame [m].
+  static bool is_inside(const auto& wall, const Vector& x) {
+    return wall.is_closed() && wall.sides() == WallSides::outside &&
+           wall.tree().bounds().contains(x) &&
+           detail::find_behind<S>(wall, x, std::numeric_limits<Scalar>::infinity(), Scalar(0)).is;
   }
 
   static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();

@@ -105,6 +105,8 @@ class MeshWall {
   const ConvexRidge& ridge(std::size_t r) const { return ridges_[r]; }     ///< r < ridge_count()
   /// How far facets of one face may lie beside its plane [m].
   Scalar flatness() const { return flat_; }
+  /// Whether the surface has no rim.
+  bool is_closed() const { return is_closed_; }
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
   bool is_tip(std::size_t v) const { return tips_.is_tip(v); }
   /// Whether side(k) has neither a convex ridge nor a tip.
@@ -175,6 +177,7 @@ class MeshWall {
   std::vector<ConvexRidge> ridges_;
   detail::TipNormals<S> tips_;
   detail::BoxTree<S> tree_;
+  bool is_closed_ = false;
   Scalar flat_ = 0;  ///< a corner closer to the plane of a neighbour than this lies in it [m]
 };
 
@@ -196,6 +199,9 @@ void MeshWall<S>::build() {
   join_faces();
   set_inward();
   set_ridges(ridges);
+  is_closed_ = std::none_of(ridges_.begin(), ridges_.end(), [](const ConvexRidge& ridge) {
+    return ridge.facet[0] == ridge.facet[1];
+  });
   tips_ = detail::TipNormals<S>(
       std::span(std::as_const(mesh_.vertices)), std::span(std::as_const(facets_)),
       std::span(std::as_const(facet_sides_)), std::span(std::as_const(ridges_)), ridges,
