@@ -126,8 +126,12 @@ class ColouredGaussSeidel {
     workspace.sweeps.renew(again);
     detail::drop_if_not_finite(impulses);
     if constexpr (detail::HasIslands<Law, typename Operator::Space>)
-      if (options_.islands && !shared_ && !problem.delassus.has_cell())
-        return solve_with_islands(problem, impulses, workspace);
+      if (options_.islands && !shared_ && !problem.delassus.has_cell()) {
+        SolveReport report = solve_with_islands(problem, impulses, workspace);
+        if (report.unsolved_islands > 0 && report.residual <= options_.tolerance)
+          solve_failed(problem, impulses, workspace, report);
+        return report;
+      }
     return sweep(problem, impulses, workspace);
   }
 
@@ -180,11 +184,42 @@ class ColouredGaussSeidel {
         islands.write(report);
       if (report.converged || !sweeps_converged) return report;
     }
-    // Impulses of islands that are not solved are worse than those of the sweeps.
-    std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
-    islands.roll_back();
-    judge(problem, impulses, sweeps_converged, workspace, report);
+    use_sweeps(problem, impulses, workspace, report);
     return report;
+  }
+  /// After solve_with_islands(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
+  /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
+  /// would need hundreds of steps. The sweeps take no more work than the attempts that have failed.
+  /// @param report of solve_with_islands(); becomes that of all
+  template <class Operator, class Law>
+  MOREAU_COLD void solve_failed(ContactProblem<Operator, Law>& problem,
+                                std::span<typename Operator::Vector> impulses,
+                                Workspace<Operator, Law>& workspace, SolveReport& report) const {
+    constexpr double further = 1e-3;  // of the tolerance
+    auto& islands = workspace.islands;
+    const double most = islands.visits_for_failed() / double(problem.size());
+    if (!(most >= options_.check_interval)) return;
+    islands.save(impulses);
+    const int before = report.sweeps;
+    const double residual = report.residual;
+    report = attempt(problem, impulses, workspace.sweeps,
+                     int(std::min(most, double(options_.max_sweeps))), options_.accelerate,
+                     further * options_.tolerance);
+    report.sweeps += before;
+    workspace.first.assign(impulses.begin(), impulses.end());
+    islands.finish_failed(problem, impulses);
+    judge(problem, impulses, true, workspace, report);
+    if (report.residual > std::max(residual, options_.tolerance))
+      use_sweeps(problem, impulses, workspace, report);
+  }
+  /// Takes the impulses of the sweeps, Workspace::first: those of islands that are not solved are worse.
+  template <class Operator, class Law>
+  MOREAU_COLD void use_sweeps(ContactProblem<Operator, Law>& problem,
+                              std::span<typename Operator::Vector> impulses,
+                              Workspace<Operator, Law>& workspace, SolveReport& report) const {
+    std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
+    workspace.islands.roll_back();
+    judge(problem, impulses, true, workspace, report);
   }
 
   /// Measures impulses of which some are those of islands.
@@ -222,15 +257,16 @@ class ColouredGaussSeidel {
   SolveReport sweep(ContactProblem<Operator, Law>& problem,
                     std::span<typename Operator::Vector> impulses,
                     Workspace<Operator, Law>& workspace) const {
-    const SolveReport first =
-        attempt(problem, impulses, workspace.sweeps, options_.max_sweeps, options_.accelerate);
+    const SolveReport first = attempt(problem, impulses, workspace.sweeps, options_.max_sweeps,
+                                      options_.accelerate, options_.tolerance);
     // The result is worse than without impulses: the warm start or the acceleration made the sweeps diverge.
     const bool diverged = first.relative_approach > 1;
     const int cap = diverged ? options_.max_sweeps : options_.cold_sweeps;
     if (!options_.accelerate || first.converged || cap == 0) return first;
     workspace.first.assign(impulses.begin(), impulses.end());
     detail::clear_impulses(problem, impulses);
-    SolveReport second = attempt(problem, impulses, workspace.sweeps, cap, !diverged);
+    SolveReport second =
+        attempt(problem, impulses, workspace.sweeps, cap, !diverged, options_.tolerance);
     second.sweeps += first.sweeps;
     if (diverged || second.converged || second.residual < first.residual) return second;
     std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
@@ -240,18 +276,19 @@ class ColouredGaussSeidel {
     return report;
   }
 
+  /// @param aim the tolerance
   template <class Operator, class Law>
   SolveReport attempt(ContactProblem<Operator, Law>& problem,
                       std::span<typename Operator::Vector> impulses,
                       detail::ColouredSweeps<Operator, Law>& sweeps, int max_sweeps,
-                      bool accelerate) const {
+                      bool accelerate, double aim) const {
     SolveReport report;
     if (detail::sum_over(shared_.get(), double(problem.size())) == 0) return report;
     report.converged = false;
     sweeps.start(problem, impulses, accelerate, team_, shared_.get());
     // The residual takes a pass over all contacts. It is measured once the change per sweep is
     // below the change at which the residual is expected to meet the tolerance.
-    double expected_change = 3 * options_.tolerance;
+    double expected_change = 3 * aim;
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
@@ -262,7 +299,7 @@ class ColouredGaussSeidel {
       const double change = std::max(report.quad_dv, report.quad_dvr);
       const bool early = report.sweeps < std::min(options_.check_interval, max_sweeps);
       const double share = early ? early_share : 1;
-      const double tolerance = share * options_.tolerance;
+      const double tolerance = share * aim;
       if (options_.stop_test == StopTest::qm16) {
         report.converged = passes_qm16(report, tolerance);
         if (report.converged) certify(problem, impulses, sweeps, report);
@@ -271,7 +308,7 @@ class ColouredGaussSeidel {
         skipped = 0;
         certify(problem, impulses, sweeps, report);
         report.converged = report.residual <= tolerance && detail::is_closed(report);
-        expected_change = report.quad_dv * options_.tolerance / report.residual;
+        expected_change = report.quad_dv * aim / report.residual;
       }
       if (report.converged) break;
       if (accelerate && !early && follow_line(line, change, sweeps)) {
@@ -299,7 +336,8 @@ class ColouredGaussSeidel {
     if (!report.converged && std::max(report.quad_dv, report.quad_dvr) > least)
       sweeps.restore(team_);
     if (!report.converged) certify(problem, impulses, sweeps, report);
-    if (options_.stop_test == StopTest::natural_map) report.converged = is_solved(report);
+    if (options_.stop_test == StopTest::natural_map)
+      report.converged = report.residual <= aim && detail::is_closed(report);
     report.capped = !report.converged;
     return report;
   }
@@ -373,10 +411,6 @@ class ColouredGaussSeidel {
         sweeps.sweep_active(team_);
     sweeps.plain_sweep(team_).write(report);
     report.sweeps += count;
-  }
-
-  bool is_solved(const SolveReport& report) const {
-    return report.residual <= options_.tolerance && detail::is_closed(report);
   }
 
   /// The residual of the impulses, with velocities computed from them alone.

@@ -147,9 +147,12 @@ bool is_at_seam(const Placed<ShapeT>& a, std::uint32_t part_a, const Placed<Shap
 
 /// Collides two parts that overlap along a face that is not inside one of the grains. The axis of two parts can be at a
 /// seam although they overlap elsewhere: of a tip in a concave corner whose seam ends in the corner, both parts have a
-/// vertex there, and the sides of the tip are the axes of least overlap.
+/// vertex there, and the sides of the tip are the axes of least overlap. Along the faces outside the tip overlaps by more, at most
+/// by the reciprocal of the sine of half its angle. Where the parts overlap by much more, other parts of the grains touch
+/// there, and such an overlap would be one of the parts, not of the grains.
 /// @param out of the collision that is at a seam (is_at_seam()); replaced if the parts are in contact
-/// @returns whether they are: not if they do not overlap, or overlap by more than what is not seen of a part
+/// @returns whether they are: not if they do not overlap, or overlap by more than what is not seen of a part, or than the sharpest
+///          tip that is seen
 template <CompoundShape ShapeT>
 [[gnu::cold, gnu::noinline]] bool collide_outside(const Placed<ShapeT>& a, std::uint32_t part_a,
                                                   const Placed<ShapeT>& b, std::uint32_t part_b,
@@ -161,7 +164,9 @@ template <CompoundShape ShapeT>
     const PolytopePair pair(a.part(part_a), b.part(part_b));
     if (out.gap > pair.rounding()) return false;
     Axis<S> best;
-    best.gap = -T(seam_tolerance) * std::min(pair.a.radius(), pair.b.radius());
+    const T overlap = std::max(-out.gap, T(0)) + pair.rounding();
+    best.gap = -std::min(T(seam_tolerance) * std::min(pair.a.radius(), pair.b.radius()),
+                         overlap / T(seam_tolerance));
     for_each_face_axis(pair, [&](const Axis<S>& axis) {
       if (!(axis.gap > best.gap)) return;
       PairCache<S> features;

@@ -146,6 +146,29 @@ class IslandSolver {
         one.error = one.start_error = by_sweeps;
     }
   }
+  /// How many contacts sweeps may visit before finish_failed(), together: as many as one failed attempt at each island that
+  /// is not solved takes. 0: all islands that were attempted are solved.
+  MOREAU_INLINED double visits_for_failed() const {
+    double visits = 0;
+    for (const Small& one : small_)
+      if (has_failed(one))
+        visits += most_steps * one.cost * double(islands_->contacts(one.island).size());
+    return visits;
+  }
+  /// After further sweeps: goes back to the saved impulses of islands that were solved, and solves the others from the impulses
+  /// of the sweeps.
+  MOREAU_INLINED void finish_failed(const Problem& problem, Impulses impulses) {
+    for (Small& one : small_) {
+      if (!has_failed(one)) {
+        if (one.error <= near * tolerance_)
+          for (const std::uint32_t c : islands_->contacts(one.island)) impulses[c] = saved_[c];
+        continue;
+      }
+      take(problem, one.island);
+      find_cost(one);
+      solve_directly(one, impulses, late_epsilon, most_steps, start_newton(problem, impulses));
+    }
+  }
   /// Whether the pressures of an island were made even that slides or had no warm start.
   bool made_even() const { return made_even_; }
   /// Whether the direct method has estimated the error of an island.
@@ -194,7 +217,7 @@ class IslandSolver {
       if (one.error == not_attempted) continue;
       report.velocity_error = std::max(report.velocity_error, one.error);
       ++report.islands;
-      report.unsolved_islands += one.error > accepted * tolerance_;
+      report.unsolved_islands += has_failed(one);
     }
   }
 
@@ -290,6 +313,9 @@ class IslandSolver {
       start_newton(problem, impulses);
   }
   bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }
+  bool has_failed(const Small& one) const {
+    return one.error != not_attempted && one.error > accepted * tolerance_;
+  }
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
   /// average.
   /// @param visits of an attempt, per contact
