@@ -147,20 +147,20 @@ class IslandSolver {
     }
   }
   /// How many contacts sweeps may visit before finish_failed(), together: as many as one failed attempt at each island that
-  /// is not solved takes. 0: all islands that were attempted are solved.
+  /// is not solved takes. 0: all islands that were attempted are solved, or have no solution.
   MOREAU_INLINED double visits_for_failed() const {
     double visits = 0;
     for (const Small& one : small_)
-      if (has_failed(one))
+      if (can_be_solved(one))
         visits += most_steps * one.cost * double(islands_->contacts(one.island).size());
     return visits;
   }
-  /// After further sweeps: goes back to the saved impulses of islands that were solved, and solves the others from the impulses
-  /// of the sweeps.
+  /// After further sweeps: solves islands that are not solved from the impulses of the sweeps, and goes back to the saved impulses
+  /// of the others whose errors are known.
   MOREAU_INLINED void finish_failed(const Problem& problem, Impulses impulses) {
     for (Small& one : small_) {
-      if (!has_failed(one)) {
-        if (one.error <= near * tolerance_)
+      if (!can_be_solved(one)) {
+        if (one.error != not_attempted)
           for (const std::uint32_t c : islands_->contacts(one.island)) impulses[c] = saved_[c];
         continue;
       }
@@ -201,7 +201,9 @@ class IslandSolver {
                             problem.least_scale(body, tolerance_),
                             problem.load.empty() ? 0 : double(problem.load[body])});
       }
-      if (approach > accepted * tolerance_ * scale) one.error = scale > 0 ? approach / scale : 1;
+      if (!(approach > accepted * tolerance_ * scale)) continue;
+      one.error = scale > 0 ? approach / scale : 1;
+      one.squeezed = true;
     }
   }
   /// Where the impulses are those of the sweeps after all: their errors, and no motion.
@@ -235,6 +237,7 @@ class IslandSolver {
     double start_error;   // the same of the impulses from which the direct method started, at least
     bool falls;           // no contact closes, or hardly: hardly_closes()
     bool failed = false;  // attempt_evenly()
+    bool squeezed = false;  // add_approach(): there is no solution
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
@@ -313,6 +316,7 @@ class IslandSolver {
       start_newton(problem, impulses);
   }
   bool meets_tolerance(const Small& one) const { return one.error <= tolerance_; }
+  bool can_be_solved(const Small& one) const { return has_failed(one) && !one.squeezed; }
   bool has_failed(const Small& one) const {
     return one.error != not_attempted && one.error > accepted * tolerance_;
   }
