@@ -311,7 +311,7 @@ class ColouredGaussSeidel {
         expected_change = report.quad_dv * aim / report.residual;
       }
       if (report.converged) break;
-      if (accelerate && !early && follow_line(line, change, sweeps)) {
+      if (accelerate && !early && follow_line(line, change, problem, impulses, sweeps, report)) {
         least = std::min(least, change);
         continue;
       }
@@ -374,7 +374,10 @@ class ColouredGaussSeidel {
   /// @returns whether it has replaced the impulses
   template <class Operator, class Law>
   MOREAU_COLD bool follow_line(detail::LineJumps& line, double change,
-                               detail::ColouredSweeps<Operator, Law>& sweeps) const {
+                               ContactProblem<Operator, Law>& problem,
+                               std::span<typename Operator::Vector> impulses,
+                               detail::ColouredSweeps<Operator, Law>& sweeps,
+                               SolveReport& report) const {
     if constexpr (!HasLines<Law, typename Operator::Space>) return false;
     switch (line.after(change, sweeps.is_mixing())) {
       case detail::LineJumps::Next::nothing:
@@ -383,6 +386,11 @@ class ColouredGaussSeidel {
         sweeps.mark();
         return false;
       case detail::LineJumps::Next::jump:
+        certify(problem, impulses, sweeps, report);
+        if (!detail::is_closed(report)) {
+          line.refuse();
+          return false;
+        }
         sweeps.save(team_);
         if (sweeps.jump(line.factor(), team_)) return true;
         line.end();

@@ -119,7 +119,7 @@ struct ResidualSums {
   }
   /// Makes the sums relative to the loads of contacts that attract, not to the attraction. Velocities up to 32 epsilon times
   /// the impulses of the attraction, and up to the rounding of b, are set to zero: this rounding error is a lower bound for
-  /// every solution.
+  /// every solution. Of a push that is larger than twice the attraction, most is load: its rounding is relative to the load.
   /// @param scale makes velocities of impulses [1/kg]
   void relate_to_loads(const ContactProblem<Operator, Law>& problem,
                        std::span<const typename Operator::Vector> impulses,
@@ -130,7 +130,8 @@ struct ResidualSums {
     norm = 0, approach = problem.attraction.velocity2;
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       typename Operator::Vector load = impulses[c];
-      pushes += load.template cast<double>().squaredNorm();
+      const double most = 2 * double(pulls[c]);
+      pushes += std::min(double(load.template cast<double>().squaredNorm()), most * most);
       load[0] -= pulls[c];
       norm += load.template cast<double>().squaredNorm();
       if (pulls[c] != 0) continue;

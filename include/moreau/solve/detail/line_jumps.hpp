@@ -47,6 +47,8 @@ class LineJumps {
     return Next::jump;
   }
   double factor() const { return factor_; }  ///< [-]
+  /// There was no jump: bodies still approach each other. Impulses without a solution move along a line that has no end.
+  void refuse() { jumped_ = false; }
   /// There are no more jumps: the impulses have moved by as much as they are.
   void end() {
     jumped_ = false;
