@@ -240,6 +240,7 @@ class Specimen {
   void drive_wall(int axis, double speed) {
     loads_[axis].reset();
     simulation_.set_wall_mass(upper_[axis], std::numeric_limits<double>::infinity());
+    simulation_.set_force(upper_[axis], Vector::Zero());
     simulation_.set_velocity(upper_[axis], -speed * Vector::Unit(axis));
   }
 

@@ -342,8 +342,9 @@ TEST_CASE_TEMPLATE("check: numbers in other units, and gravity of the wrong sign
   };
   for (const double density : {0.9, 1.0, 2.7, 7.85, 11.3})
     CHECK(says({.density = density}, "g/cm^3, type "));
-  CHECK(
-      says({.density = 2.7}, "a density of 2.7 kg/m^3 (in the plane kg/m^2) is that of no grain"));
+  CHECK(says(
+      {.density = 2.7},
+      "a density of 2.7 kg/m^3 is that of no grain (in the plane 2.7 kg/m^2: of none 1 m thick)"));
   CHECK(says({.density = 2.7e6}, "in g/m^3, type 2700"));
   for (const double size : {5.0, 20.0, 200.0})
     CHECK(says({.size = size, .grain_size = size}, "If lengths are in mm"));
@@ -484,10 +485,12 @@ TEST_CASE_TEMPLATE(
     CHECK(check(a, a.step(T(1e-4))).empty());
     a.set_force(BodyId(3), T(-1) * up);
     CHECK(says(a, "the force or torque of body 3 has no effect: its motion is prescribed"));
+    CHECK(says(a, "or set_force() with zero if it shall be driven"));
     a.set_wall_mass(BodyId(3), T(1e3));
     CHECK(check(a, a.step(T(1e-4))).empty());
     const char* aside =
-        "has no effect, or a part of it: a wall with a mass moves along its normal only";
+        "has no effect, or a part of it: a wall with a mass moves along the first axis of its "
+        "frame";
     a.set_force(BodyId(3), T(-1) * up + T(1e-2) * Vector::UnitX());
     CHECK(says(a, aside));
     a.set_force(BodyId(3), T(-1) * up + T(1e-5) * Vector::UnitX());  // rounding
@@ -624,15 +627,22 @@ TEST_CASE_TEMPLATE(
         world.add_wall(up, Vector::Zero());  // below
         world.set_gravity(T(-9.81) * up);
         world.allow_overlaps();
-        bool said = false;
+        bool said = false, said_afterwards = false;
         for (int k = 0; k < 200; ++k)
-          for (const std::string& sentence : check(world, world.step(T(5e-4))))
-            if (sentence.find("of mesh wall " + std::to_string(wall.index()) +
-                              ", which holds grains on one side") != std::string::npos)
-              said = true;
+          for (const std::string& sentence : check(world, world.step(T(5e-4)))) {
+            const auto has = [&](const std::string& text) {
+              return sentence.find(text) != std::string::npos;
+            };
+            const std::string number = std::to_string(wall.index());
+            if (has("of mesh wall " + number + ", which holds grains on one side")) said = true;
+            if (has("Mesh wall " + number + " holds grains on one side: one that comes from"))
+              said_afterwards = true;
+          }
         const bool is_one_sided = sides == WallSides::outside;
         // From below the grains are behind the wall that faces up, and above one that faces down until they have passed.
         CHECK(said == (is_one_sided && turned != added_below));
+        // Once their centre has passed they overlap the wall deeply.
+        if (!added_below) CHECK(said_afterwards == (is_one_sided && turned));
         CHECK((world.pose(world.grain(0)).position.dot(up) > T(0.3)) ==
               (!added_below && (!turned || !is_one_sided)));
       }
@@ -686,6 +696,10 @@ TEST_CASE_TEMPLATE(
   CHECK(says(lid, "with its weight of 49.05 N"));
   lid.set_force(BodyId(1), T(-1e-3) * up);
   CHECK(check(lid, lid.step(h)).empty());
+  lid.set_force(BodyId(1), T(1e-3) * up);  // with the wrong sign
+  CHECK(check(lid, lid.step(h)).empty());  // it still moves down
+  lid.set_force(BodyId(1), T(9.81) * up);
+  CHECK(says(lid, "the force on wall 1, -9.81 N along its normal, pulls it away from the grains"));
   // Neither of a wall that gravity pulls away from the grains, nor of one beside them.
   auto floor = box();
   floor.set_wall_mass(BodyId(0), 5);
@@ -748,6 +762,40 @@ TEST_CASE_TEMPLATE("check: a drum that turns too fast", ShapeT,
   }
 }
 
+TEST_CASE_TEMPLATE("check: a cylinder twice, a mesh twice", ShapeT,
+                   MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  constexpr T size = T(0.02);
+  const typename S::Angular axis = S::Angular::Unit(0);
+  const Vector aside = Vector::Unit(S::dim - 1);
+  FacetMesh<S> far;  // one facet
+  for (int k = 0; k < S::dim; ++k) far.vertices.push_back(Vector(Vector::Unit(k)));
+  far.facets.emplace_back();
+  for (std::uint32_t k = 0; k < S::dim; ++k) far.facets[0][k] = k;
+  for (const T apart : {T(0), T(5e-4) * size, T(0.01) * size})
+    for (const bool is_mesh : {false, true}) {
+      CAPTURE(apart);
+      CAPTURE(is_mesh);
+      Simulation<ShapeT, Coulomb> world(size, Materials<Coulomb>(1, Coulomb(T(0.5))));
+      // A point of a cylinder can be any of its axis.
+      const Vector other = apart * aside + T(S::dim == 3 && !is_mesh ? 7 : 0) * Vector::UnitX();
+      for (const Vector& at : {Vector(Vector::Zero()), other})
+        if (is_mesh)
+          world.add_mesh_wall(far, Pose<S>(at));
+        else
+          world.add_cylinder(at, axis, T(0.5));
+      world.add_cylinder(Vector::Zero(), axis, T(0.6));
+      world.add_grain(world.add_shape(regular_shape<ShapeT>(size)), Pose<S>(), 2700);
+      world.set_gravity(T(-9.81) * aside);
+      const auto all = check(world, world.step(T(1e-4)));
+      CHECK(one_contains(all, "walls 0 and 1 lie in the same place") == (apart < T(1e-3) * size));
+      CHECK(all.size() == std::size_t(apart < T(1e-3) * size));
+    }
+}
+
 TEST_CASE_TEMPLATE("check: an overlap by a body that is driven", ShapeT,
                    MOREAU_TYPES((Polygon<>, Ball<>), (Polyhedron<>, Disk<>))) {
   using S = SpaceOf<ShapeT>;
@@ -773,7 +821,15 @@ TEST_CASE_TEMPLATE("check: an overlap by a body that is driven", ShapeT,
     CHECK(!one_contains(all, "stiffer contacts"));
     world.set_velocity(piston, Vector(0.05 * along));
     all = check(world, world.step(1e-3));
-    CHECK(one_contains(all, "whose motion is prescribed, presses") == by_obstacle);
+    CHECK(!one_contains(all, "whose motion is prescribed, presses"));
+    CHECK(one_contains(all, "stiffer contacts"));
+    // It moves towards grains again, and touches none.
+    world.set_pose(piston, Pose<S>(Vector(0.05 * along), world.pose(piston).rotation));
+    world.set_velocity(piston, Vector(-0.05 * along));
+    world.set_pose(world.grain(0), Pose<S>(Vector(-0.0005 * along)));
+    world.step(1e-4);
+    all = check(world, world.step(1e-4));
+    CHECK(one_contains(all, "older than this step, in which no surfaces approach"));
   }
 }
 

@@ -52,7 +52,8 @@ class SentencesOnce {
 ///            tolerances are relative. A plate or a stick among the grains allows a grain size down to its thickness
 ///          - an overlap beyond 1 % of the grain size; two bodies are named. The sentence tells an overlap at the
 ///            start (grains were added inside one another), one that arose in the step (a fast approach: the step
-///            is too long), and one that is older, with a body of prescribed motion that presses
+///            is too long), and one that is older, with a body of prescribed motion that presses, or with a
+///            mesh wall through which a grain came from behind
 ///          - the displacement of bodies by the overlap correction was limited
 ///          - the solver did not reach its tolerance
 ///          - small structures (islands) whose velocities have an error above the tolerance
@@ -71,8 +72,8 @@ class SentencesOnce {
 ///            lies there
 ///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass, or along a wall that
 ///            has one; the motion of all bodies is prescribed
-///          - a wall with a mass has passed a parallel wall that faces it; two walls lie in the same plane; a wall with a mass
-///            above grains has no force, as gravity does not act on it
+///          - a wall with a mass has passed a parallel wall that faces it; two walls lie in the same plane or place; a wall with a mass
+///            above grains has no force, as gravity does not act on it; the force on a wall with a mass pulls it away from the grains
 ///          - a grain, a wall or an obstacle turns so fast that its surface moves by more than half a grain size in the step (rpm)
 ///          - a grain that is not compound lies behind the nearest facet of a mesh wall with one side
 ///          - the step is longer than a fifth of the duration of an impact of the lightest grains, under a law with duration()
@@ -92,9 +93,11 @@ template <class Simulation>
     simulation.contact_problem();
   }
   ? detail::older_overlap : detail::overlap_of_springs;
-  const double presses = report.max_overlap > 0.01 * size ? detail::pressing_body(simulation) : -1;
+  const bool is_deep = report.max_overlap > 0.01 * size;
   detail::check_report(found, report, size,
-                       {simulation.tolerances().margin * size, is_first, older, presses});
+                       {simulation.tolerances().margin * size, is_first, older,
+                        is_deep ? detail::pressing_body(simulation) : -1,
+                        is_deep ? detail::one_sided_wall(simulation, report) : -1});
   detail::check_units(found, simulation, report.step);
   detail::check_motion(found, simulation, report);
   detail::check_meshes(found, simulation);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The part of check() that looks at structures at rest which no direct method has judged: under a law with a solve() of its
-// own, and with ColouredOptions::islands = false. Small errors of many contacts then add up, and the structure creeps.
+// own, with ColouredOptions::islands = false, and in steps that leave heaps to the sweeps. Small errors of many contacts then add up, and the structure creeps.
 //
 // The residual e is relative to the root of the sum of the squares of all impulses r, with W scaled to a mean diagonal of
 // w. So the velocities of all contacts that stick have errors of at most e w |r| together, as a 2-norm. A body that d
@@ -93,11 +93,10 @@ template <class Simulation>
     if (bodies.exists(i) && double(linear<S>(bodies.velocity[i]).norm()) > 30 * creep) return;
   found.say(
       "bodies stand on each other, % contacts high, and no direct method judges their velocities "
-      "under this law: with a "
+      "(a law of your own, islands = false, or many contacts): with a "
       "residual of % they can creep by % m per second, % times the grain size. Take a tolerance % "
-      "times smaller "
-      "(ColouredOptions::tolerance, and as many more max_sweeps), or a law that the direct method "
-      "solves: guide/solve-report.md",
+      "times smaller (ColouredOptions::tolerance, and as many more max_sweeps): "
+      "guide/solve-report.md",
       {double(way), report.solve.residual, creep, creep / size,
        std::ceil(creep * second / (share * size))});
 }

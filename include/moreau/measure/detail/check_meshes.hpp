@@ -14,8 +14,19 @@
 #include "moreau/mesh/mesh_wall.hpp"
 #include "moreau/shape/circumradius.hpp"
 #include "moreau/shape/concepts.hpp"
+#include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
+
+/// The mesh wall with one side that has the deepest overlap of a step; -1 if no such wall has it.
+template <class Simulation>
+[[gnu::cold]] double one_sided_wall(const Simulation& simulation, const StepReport& report) {
+  for (const auto& mesh : simulation.mesh_walls())
+    if (const std::size_t i = mesh.body.index();
+        mesh.shape.sides() != WallSides::both && (i == report.deepest_a || i == report.deepest_b))
+      return double(i);
+  return -1;
+}
 
 /// Names a grain whose centre lies behind the facet that is nearest to it. The centre of a compound grain can lie there although
 /// the grain is in front.

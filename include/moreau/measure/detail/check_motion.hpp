@@ -15,8 +15,8 @@
 
 namespace moreau::detail {
 
-/// A body of prescribed motion that moves towards grains: a half-space along its normal, a mesh wall or an obstacle in any
-/// direction; -1 if there is none.
+/// A body of prescribed motion that moves towards grains, and pushes some: a half-space along its normal, a mesh wall or an
+/// obstacle in any direction; -1 if there is none.
 template <class Simulation>
 MOREAU_INLINED inline double pressing_body(const Simulation& simulation) {
   using S = typename Simulation::S;
@@ -25,13 +25,16 @@ MOREAU_INLINED inline double pressing_body(const Simulation& simulation) {
     const typename S::Vector normal = bodies.axes(i).col(0);
     return simulation.is_grain(i) ? v.norm() : normal.dot(v);
   };
+  const auto pushes = [&](std::size_t i) {
+    return !simulation.contact_impulse(simulation.body_id(i)).isZero(0);
+  };
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies.exists(i) && bodies.is_prescribed(i) &&
-        speed_of(i, linear<S>(bodies.velocity[i])) > 0)
+        speed_of(i, linear<S>(bodies.velocity[i])) > 0 && pushes(i))
       return double(i);
   for (const auto& mesh : simulation.mesh_walls())
     if (const std::size_t i = mesh.body.index();
-        bodies.is_prescribed(i) && linear<S>(bodies.velocity[i]).norm() > 0)
+        bodies.is_prescribed(i) && linear<S>(bodies.velocity[i]).norm() > 0 && pushes(i))
       return double(i);
   return -1;
 }
@@ -62,7 +65,45 @@ MOREAU_INLINED inline void check_walls(Findings& found, const Simulation& simula
     }
 }
 
-/// Names a wall with a mass above grains on which no force acts.
+/// Names two cylinders, and two meshes, in one place.
+template <class Simulation>
+MOREAU_INLINED inline void check_twice(Findings& found, const Simulation& simulation) {
+  using S = typename Simulation::S;
+  using Scalar = typename S::Scalar;
+  const auto& bodies = simulation.bodies();
+  const Scalar near = Scalar(1e-3) * simulation.grain_size();
+  // Calls `coincide` for all pairs of walls of a kind that move alike, until it says yes.
+  const auto look_for = [&](const auto& walls, const auto& coincide) {
+    for (std::size_t b = 1; b < walls.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        const std::size_t i = walls[a].body.index(), k = walls[b].body.index();
+        if (bodies.velocity[i] != bodies.velocity[k] ||
+            !coincide(walls[a].shape, bodies.pose[i], walls[b].shape, bodies.pose[k]))
+          continue;
+        return found.say(
+            "walls % and % lie in the same place: grains touch both, each has a part of the force, "
+            "and springs and attraction act twice. Add the wall once",
+            {double(i), double(k)});
+      }
+  };
+  look_for(
+      simulation.cylinders(), [&](const auto& a, const auto& at, const auto& b, const auto& other) {
+        const typename S::Angular axis = a.axis_at(at.rotation), second = b.axis_at(other.rotation);
+        const typename S::Vector way = other.position - at.position;
+        return std::abs(a.radius() - b.radius()) <= near &&
+               std::abs(axis.dot(second)) > Scalar(0.999999) && S::spin(axis, way).norm() <= near;
+      });
+  look_for(simulation.mesh_walls(), [&](const auto& a, const auto& at, const auto& b,
+                                        const auto& other) {
+    const auto &one = a.mesh(), &two = b.mesh();
+    bool same = one.vertices.size() == two.vertices.size() && one.facets == two.facets;
+    for (std::size_t v = 0; same && v < one.vertices.size(); ++v)
+      same = typename S::Vector(at(one.vertices[v]) - other(two.vertices[v])).norm() <= near;
+    return same;
+  });
+}
+
+/// Names a wall with a mass above grains on which no force acts, and one that its force pulls away from grains.
 template <class Simulation>
 MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simulation) {
   using S = typename Simulation::S;
@@ -71,8 +112,18 @@ MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simu
   const Vector gravity = simulation.gravity();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto inverse = double(bodies.inverse_mass[i][0]);
-    if (simulation.is_grain(i) || !(inverse > 0) || !bodies.force[i].isZero(0)) continue;
+    if (simulation.is_grain(i) || !(inverse > 0)) continue;
     const Vector normal = bodies.axes(i).col(0);
+    if (!bodies.force[i].isZero(0)) {
+      const auto push = double(normal.dot(linear<S>(bodies.force[i])));
+      if (push < 0 && normal.dot(linear<S>(bodies.velocity[i])) < 0 &&
+          simulation.contact_impulse(simulation.body_id(i)).isZero(0))
+        return found.say(
+            "the force on wall %, % N along its normal, pulls it away from the grains, and it "
+            "touches none. If it shall press, turn the sign of the force or of the pressure",
+            {double(i), push});
+      continue;
+    }
     const auto pull = double(normal.dot(gravity));
     if (!(pull > 0.1 * double(gravity.norm()))) continue;
     return found.say(
@@ -151,15 +202,17 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
     if (speed > most) fastest = i, most = speed;
   }
   check_walls(found, simulation);
+  check_twice(found, simulation);
   check_weights(found, simulation);
   check_spins(found, simulation, report.step);
   if (in_vain < bodies.size())
     found.say(
         bodies.is_prescribed(in_vain)
             ? "the force or torque of body % has no effect: its motion is prescribed. Call "
-              "set_wall_mass() for a wall, release() for a grain"
+              "set_wall_mass() for a wall, release() for a grain; or set_force() with zero if it "
+              "shall be driven"
             : "the force or torque of body % has no effect, or a part of it: a wall with a mass "
-              "moves along its normal only",
+              "moves along the first axis of its frame only, a half-space along its normal",
         {double(in_vain)});
   if (fastest < bodies.size() && report.approach <= 1)
     found.say(

@@ -73,6 +73,12 @@ inline constexpr const char* overlap_by_drive =
     "body %, whose motion is prescribed, presses grains that cannot give way, they overlap more in "
     "each step: stop it, or let a force move it (set_wall_mass(), set_force()). Else use a shorter "
     "step, and add no grains inside others";
+/// The same at a mesh wall with one side.
+inline constexpr const char* overlap_from_behind =
+    "overlap of % m of the bodies % and %, % of the grain size: it is older than this step. Mesh "
+    "wall % holds grains on one side: one that comes from behind is pushed out in front. If grains "
+    "shall be held where they come from, turn the order of the corners of the facets round, or "
+    "take WallSides::both. Else use a shorter step, and add no grains inside others";
 /// The same under a regularized law.
 inline constexpr const char* overlap_of_springs =
     "overlap of % m of the bodies % and %, % of the grain size: the springs of the law are as "
@@ -83,21 +89,22 @@ struct OverlapScene {
   double margin = 0;                  ///< of detection [m]
   bool is_first = false;              ///< whether no step was made before
   const char* older = older_overlap;  ///< the sentence about an overlap that is older than the step
-  double presses = -1;  ///< a body of prescribed motion that moves towards grains; < 0: none
+  double presses = -1;    ///< a body of prescribed motion that presses grains; < 0: none
+  double one_sided = -1;  ///< of the deepest overlap: a mesh wall with one side; < 0: none
 };
 
 /// Names the deepest overlap, with the advice for its cause:
 ///   - in the first step it was there at the start;
 ///   - if two surfaces that approach move as far in the step, it arose in the step: an impact;
 ///   - else it arose before, in a step that was too long, with a body that was added, by a body of prescribed motion that
-///     presses, or by compliance, as is common under a regularized law.
+///     presses, of a grain that came through a mesh wall from behind, or by compliance, as is common under a regularized law.
 [[gnu::cold]] inline void check_overlap(Findings& found, const StepReport& report, double size,
                                         const OverlapScene& scene) {
   if (!(report.max_overlap > 0.01 * size)) return;
   const double motion = report.approach * scene.margin;
-  const std::initializer_list<double> numbers = {report.max_overlap, double(report.deepest_a),
-                                                 double(report.deepest_b),
-                                                 report.max_overlap / size, scene.presses};
+  const std::initializer_list<double> numbers = {
+      report.max_overlap, double(report.deepest_a), double(report.deepest_b),
+      report.max_overlap / size, scene.presses < 0 ? scene.one_sided : scene.presses};
   if (scene.is_first)
     return found.say(
         "overlap of % m of the bodies % and % at the start, % of the grain size. Add grains that "
@@ -109,8 +116,12 @@ struct OverlapScene {
         "which surfaces approach by % m. Use a shorter step: half the step halves the overlap",
         {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
          report.max_overlap / size, motion});
-  found.say(scene.older == older_overlap && scene.presses >= 0 ? overlap_by_drive : scene.older,
-            numbers);
+  const char* text = scene.older;
+  if (text == older_overlap && scene.presses >= 0)
+    text = overlap_by_drive;
+  else if (text == older_overlap && scene.one_sided >= 0)
+    text = overlap_from_behind;
+  found.say(text, numbers);
 }
 
 /// What the solver did not reach.

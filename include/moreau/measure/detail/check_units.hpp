@@ -50,9 +50,9 @@ struct Extremes {
               {of.width, of.width / 1000});
   if (grains && earth && of.density < 12)
     found.say(
-        "a density of % kg/m^3 (in the plane kg/m^2) is that of no grain. If it is in g/cm^3, type "
-        "%",
-        {of.density, 1000 * of.density});
+        "a density of % kg/m^3 is that of no grain (in the plane % kg/m^2: of none 1 m thick). If "
+        "it is in g/cm^3, type %; in the plane it is right for thin disks",
+        {of.density, of.density, 1000 * of.density});
   if (of.heaviest > 25000)
     found.say(
         "a density of % kg/m^3 (in the plane kg/m^2) is above that of every solid. If it is in "
