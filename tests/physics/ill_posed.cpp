@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "moreau/shape/regular_shape.hpp"
+
 #include "sanitized.hpp"
 #include "validation/cases/is_sane.hpp"
 #include "world/assemblies.hpp"
@@ -102,6 +104,37 @@ TEST_CASE_TEMPLATE("a grain between walls driven together: the report says that 
           // it with at least v. The test requires half of this.
           CHECK(result.velocity >= speed / 2);
         }
+}
+
+// Most steps have no solution, and say so. Impulses that sweeps make larger and larger there would throw the squares with
+// 1e6 m/s, and the steps of their flight would be solved.
+TEST_CASE("squares that an obstacle squeezes in a box are not thrown") {
+  Scene<Polygon<>> scene(0.5, 0.02);
+  using Vector = Scene<Polygon<>>::Vector;
+  auto& world = scene.simulation;
+  world.add_wall(Vector::UnitY(), Vector::Zero());
+  world.add_wall(Vector::UnitX(), Vector::Zero());
+  world.add_wall(-Vector::UnitX(), Vector(0.1, 0));
+  const auto large = world.add_shape(scenes::cuboid<Polygon<>>(Vector(0.02, 0.02))),
+             square = world.add_shape(moreau::regular_shape<Polygon<>>(0.02));
+  const BodyId obstacle = world.add_grain(large, {Vector(0.05, 0.2)}, 2700);
+  world.prescribe_motion(obstacle);
+  world.set_velocity(obstacle, Vector(0, -0.1));
+  for (int k = 0; k < 9; ++k)
+    world.add_grain(square,
+                    {Vector(0.02 + 0.031 * (k % 3 + 0.05 * (k % 3)), 0.02 + 0.031 * (k / 3)),
+                     moreau::Space<2>::exp(moreau::Space<2>::Angular::Constant(0.2 * k))},
+                    2700);
+  world.set_gravity(Vector(0, -9.81));
+  double fastest = 0;
+  int unsolved = 0;
+  for (int k = 0; k < 2600; ++k) {
+    unsolved += !world.step(5e-4).solve.converged;
+    for (const BodyId grain : world.grains())
+      fastest = std::max(fastest, world.velocity(grain).norm());
+  }
+  CHECK(fastest < 10);
+  CHECK(unsolved > 0);
 }
 
 // The walls form an angle of 30 degrees. The friction angle, 45 degrees, is more than half of this

@@ -128,7 +128,8 @@ class ColouredGaussSeidel {
     if constexpr (detail::HasIslands<Law, typename Operator::Space>)
       if (options_.islands && !shared_ && !problem.delassus.has_cell()) {
         SolveReport report = solve_with_islands(problem, impulses, workspace);
-        if (report.unsolved_islands > 0 && report.residual <= options_.tolerance)
+        if (report.unsolved_islands > 0 && report.residual <= options_.tolerance &&
+            detail::is_closed(report))
           solve_failed(problem, impulses, workspace, report);
         return report;
       }
@@ -189,7 +190,8 @@ class ColouredGaussSeidel {
   }
   /// After solve_with_islands(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
   /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
-  /// would need hundreds of steps. The sweeps take no more work than the attempts that have failed.
+  /// would need hundreds of steps. The sweeps take no more work than the attempts that have failed. Not where bodies still
+  /// approach each other: without a solution impulses would only grow.
   /// @param report of solve_with_islands(); becomes that of all
   template <class Operator, class Law>
   MOREAU_COLD void solve_failed(ContactProblem<Operator, Law>& problem,
@@ -206,10 +208,12 @@ class ColouredGaussSeidel {
                      int(std::min(most, double(options_.max_sweeps))), options_.accelerate,
                      further * options_.tolerance);
     report.sweeps += before;
+    const bool leads_off = !detail::is_closed(report);
+    if (leads_off) islands.restore(impulses);
     workspace.first.assign(impulses.begin(), impulses.end());
-    islands.finish_failed(problem, impulses);
+    if (!leads_off) islands.finish_failed(problem, impulses);
     judge(problem, impulses, true, workspace, report);
-    if (report.residual > std::max(residual, options_.tolerance))
+    if (report.residual > std::max(residual, options_.tolerance) || !detail::is_closed(report))
       use_sweeps(problem, impulses, workspace, report);
   }
   /// Takes the impulses of the sweeps, Workspace::first: those of islands that are not solved are worse.

@@ -101,6 +101,9 @@ class IslandSolver {
   }
   /// Saves the impulses, which sweeps change.
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
+  void restore(Impulses impulses) const {
+    std::copy(saved_.begin(), saved_.end(), impulses.begin());
+  }
   /// After sweeps: goes back to the saved impulses of the islands where these are better, and solves some of the
   /// others from the impulses of the sweeps.
   /// @param converged whether the sweeps have met their stopping test: if not, islands that slide are attempted as well
