@@ -124,11 +124,13 @@ TEST_CASE_TEMPLATE(
     int count;
     double h, mass, share, size;  // of the wall in kg/(0.1 m)^3; of the force
   };
-  for (const auto& [count, h, mass, share, size] :
-       {Case{2, 1e-3, 1e3, 0.9, 1}, Case{2, 1e-3, 1e3, 0.5, 0.01},
-        Case{2, 1.0 / 60, 1e-3, 0.5, 0.01}, Case{3, 1e-3, 1e-3, 0.99, 0.1},
-        Case{3, 1e-3, 1e3, 0.5, 0.01}, Case{3, 1.0 / 60, 1, 0.5, 0.01},
-        Case{6, 1.0 / 60, 1e-3, 0.5, 0.01}, Case{6, 1.0 / 60, 1e-2, 0.5, 0.01}}) {
+  for (const auto& one : {Case{2, 1e-3, 1e3, 0.9, 1}, Case{2, 1e-3, 1e3, 0.5, 0.01},
+                          Case{2, 1.0 / 60, 1e-3, 0.5, 0.01}, Case{3, 1e-3, 1e-3, 0.99, 0.1},
+                          Case{3, 1e-3, 1e3, 0.5, 0.01}, Case{3, 1.0 / 60, 1, 0.5, 0.01},
+                          Case{6, 1.0 / 60, 1e-3, 0.5, 0.01}, Case{6, 1.0 / 60, 1e-2, 0.5, 0.01}}) {
+    // Not a structured binding, which lambdas of clang++ 14 do not capture.
+    const int count = one.count;
+    const double h = one.h, mass = one.mass, share = one.share, size = one.size;
     CAPTURE(count);
     CAPTURE(h);
     CAPTURE(mass);

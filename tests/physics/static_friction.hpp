@@ -145,7 +145,8 @@ void check_beside(double ratio, double step, bool islands) {
   scenes::World<ShapeT> world(T(0.1), materials, moreau::ColouredGaussSeidel(coloured));
   const auto shape = world.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(T(0.05))));
   const auto large = world.add_shape(scenes::cuboid<ShapeT>(Vector::Constant(T(0.5))));
-  const auto add = [&](moreau::ShapeId id, double x, double z, double density, int material) {
+  const auto add = [&](moreau::ShapeId id, double x, double z, double density,
+                       std::size_t material) {
     moreau::Pose<S> pose;
     pose.position[0] = T(x);
     pose.position[S::dim - 1] = T(z);

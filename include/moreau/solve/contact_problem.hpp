@@ -56,19 +56,19 @@ struct ContactProblem {
   List<std::uint32_t> law_of;  ///< one per contact: its entry in the table
   /// Rounding of the velocities of the bodies, one per body, from which b is computed [m/s]; empty: not known. Smaller
   /// errors are neglected: if bodies touch and fall together, b is only rounding.
-  List<Scalar> rounding;
+  List<Scalar> rounding = {};
   /// Velocities that the loads of the step give the bodies, one per body, g h under gravity alone [m/s]; empty: not known.
-  List<Scalar> load;
+  List<Scalar> load = {};
   /// Velocities of the bodies without impulses, from which b is computed, one per body, (v, w) in world axes [m/s, rad/s];
   /// in single precision only; empty: not known.
-  List<typename Space::Twist> free;
+  List<typename Space::Twist> free = {};
   /// What the open gaps add to b_n, gap / h, one per contact, >= 0 [m/s]; under Coulomb's law, with couples or without; empty:
   /// not known.
-  List<Scalar> gap_velocity;
+  List<Scalar> gap_velocity = {};
   /// The attraction of the contacts, if the law is an AttractiveLaw.
   [[no_unique_address]] std::conditional_t<
       AttractiveLaw<Law, Space>, detail::ProblemAttraction<Scalar>, detail::NoProblemAttraction>
-      attraction;
+      attraction = {};
 
   /// Errors of a body are relative to at least this share of the velocity that the loads of the step give to it [-].
   static constexpr double least_share = 0.01;
