@@ -34,7 +34,8 @@ MOREAU_INLINED inline Behind find_behind(const MeshWall<S>& wall, const typename
                       const Scalar distance = nearest_on_facet(corners).norm();
                       if (!(distance < nearest)) return;
                       nearest = distance;
-                      // The nearest point lies inside the facet if it is the foot of the normal. Beside a ridge the side is not known.
+                      // Where the nearest point is not the projection onto the plane of the facet, it lies on a rim or a ridge:
+                      // the side is not known.
                       const Scalar depth = side.offset - side.normal.dot(x);
                       found = {place, depth > least && distance <= Scalar(1.001) * depth};
                     });

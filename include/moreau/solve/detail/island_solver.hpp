@@ -85,9 +85,8 @@ class IslandSolver {
     }
   }
   bool empty() const { return small_.empty(); }  ///< no island is small
-  bool have_all_contacts() const {
-    return !others_;
-  }  ///< whether all contacts lie in small islands
+  /// Whether all contacts lie in small islands.
+  bool have_all_contacts() const { return !others_; }
   /// Whether all contacts lie in islands whose error is within the tolerance.
   bool all_meet_tolerance() const {
     return !others_ && std::all_of(small_.begin(), small_.end(),
@@ -101,6 +100,7 @@ class IslandSolver {
   }
   /// Saves the impulses, which sweeps change.
   void save(Impulses impulses) { saved_.assign(impulses.begin(), impulses.end()); }
+  /// Goes back to the impulses of save().
   void restore(Impulses impulses) const {
     std::copy(saved_.begin(), saved_.end(), impulses.begin());
   }
