@@ -16,7 +16,7 @@
 //
 // Small islands, sets of up to 200 bodies that contacts connect, are solved to a tolerance on the velocities of their
 // bodies by a direct method, if the law is Coulomb's or that of RollingResistance and no body of them has a bond
-// (detail/island_solver.hpp, island_newton.hpp). Sweeps
+// (detail/solution_by_islands.hpp, detail/island_solver.hpp, island_newton.hpp). Sweeps
 // do not reach this tolerance in chains of contacts: the residual is relative to the largest impulses, and small errors of many contacts add up.
 //
 // coloured/group_kernel.hpp, visit(), computes the impulse of a contact point: it calls the local
@@ -50,6 +50,7 @@
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/island_solver.hpp"
 #include "moreau/solve/detail/line_jumps.hpp"
+#include "moreau/solve/detail/solution_by_islands.hpp"
 #include "moreau/solve/measure_residual.hpp"
 #include "moreau/solve/shared_bodies.hpp"
 #include "moreau/solve/solve_report.hpp"
@@ -126,141 +127,24 @@ class ColouredGaussSeidel {
     workspace.sweeps.renew(again);
     detail::drop_if_not_finite(impulses);
     if constexpr (detail::HasIslands<Law, typename Operator::Space>)
-      if (options_.islands && !shared_ && !problem.delassus.has_cell()) {
-        SolveReport report = solve_with_islands(problem, impulses, workspace);
-        if (report.unsolved_islands > 0 && report.residual <= options_.tolerance &&
-            detail::is_closed(report))
-          solve_failed(problem, impulses, workspace, report);
-        return report;
-      }
+      if (options_.islands && !shared_ && !problem.delassus.has_cell())
+        return detail::SolutionByIslands<ColouredGaussSeidel, Operator, Law>(*this, problem,
+                                                                             impulses, workspace)
+            .solve();
     return sweep(problem, impulses, workspace);
   }
 
  private:
   friend struct SerializationAccess;
+  template <class, class, class>
+  friend class detail::SolutionByIslands;
   auto serialized_members() { return std::tie(options_); }
-
-  /// solve(), with small islands by the direct method.
-  template <class Operator, class Law>
-  SolveReport solve_with_islands(ContactProblem<Operator, Law>& problem,
-                                 std::span<typename Operator::Vector> impulses,
-                                 Workspace<Operator, Law>& workspace) const {
-    auto& islands = workspace.islands;
-    islands.start(problem, impulses, options_.velocity_tolerance);
-    if (islands.empty()) return sweep(problem, impulses, workspace);
-    SolveReport report;
-    bool solved = islands.all_meet_tolerance();
-    if (solved) judge(problem, impulses, true, workspace, report);
-    if (solved && report.converged) return report;
-    solved = solved && islands.all_meet_tolerance();  // not where bodies are squeezed
-    islands.save(impulses);
-    report = sweep(problem, impulses, workspace);
-    if (solved && report.converged) {  // the sweeps have refined a solution
-      islands.write(report);
-      return report;
-    }
-    const bool sweeps_converged = report.converged;
-    const double residual = report.residual;
-    workspace.first.assign(impulses.begin(), impulses.end());
-    islands.finish(problem, impulses, report.sweeps, sweeps_converged);
-    if (!islands.attempted()) return report;
-    judge(problem, impulses, sweeps_converged, workspace, report);
-    // The direct method ends at velocity_tolerance, which leaves a larger residual than tolerances near rounding allow.
-    const bool refines = sweeps_converged
-                             ? islands.made_even()
-                             : islands.have_all_contacts() && report.unsolved_islands == 0;
-    if (report.residual <= std::max(residual, options_.tolerance) ||
-        (!sweeps_converged && !refines))
-      return report;
-    // Sweeps go on from even pressures, or from a solution that they have not reached from elsewhere, and keep them.
-    if (refines) {
-      const int before = report.sweeps;
-      if (sweeps_converged) islands.roll_back();
-      report = sweep(problem, impulses, workspace);
-      report.sweeps += before;
-      // The errors after roll_back() are those before judge(): bodies can be squeezed.
-      if (report.converged && sweeps_converged)
-        judge(problem, impulses, true, workspace, report);
-      else
-        islands.write(report);
-      if (report.converged || !sweeps_converged) return report;
-    }
-    use_sweeps(problem, impulses, workspace, report);
-    return report;
-  }
-  /// After solve_with_islands(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
-  /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
-  /// would need hundreds of steps. The sweeps take no more work than the attempts that have failed. Not where bodies still
-  /// approach each other: without a solution impulses would only grow.
-  /// @param report of solve_with_islands(); becomes that of all
-  template <class Operator, class Law>
-  MOREAU_COLD void solve_failed(ContactProblem<Operator, Law>& problem,
-                                std::span<typename Operator::Vector> impulses,
-                                Workspace<Operator, Law>& workspace, SolveReport& report) const {
-    constexpr double further = 1e-3;  // of the tolerance
-    auto& islands = workspace.islands;
-    const double most = islands.visits_for_failed() / double(problem.size());
-    if (!(most >= options_.check_interval)) return;
-    islands.save(impulses);
-    const int before = report.sweeps;
-    const double residual = report.residual;
-    report = attempt(problem, impulses, workspace.sweeps,
-                     int(std::min(most, double(options_.max_sweeps))), options_.accelerate,
-                     further * options_.tolerance);
-    report.sweeps += before;
-    const bool leads_off = !detail::is_closed(report);
-    if (leads_off) islands.restore(impulses);
-    workspace.first.assign(impulses.begin(), impulses.end());
-    if (!leads_off) islands.finish_failed(problem, impulses);
-    judge(problem, impulses, true, workspace, report);
-    if (report.residual > std::max(residual, options_.tolerance) || !detail::is_closed(report))
-      use_sweeps(problem, impulses, workspace, report);
-  }
-  /// Takes the impulses of the sweeps, Workspace::first: those of islands that are not solved are worse.
-  template <class Operator, class Law>
-  MOREAU_COLD void use_sweeps(ContactProblem<Operator, Law>& problem,
-                              std::span<typename Operator::Vector> impulses,
-                              Workspace<Operator, Law>& workspace, SolveReport& report) const {
-    std::copy(workspace.first.begin(), workspace.first.end(), impulses.begin());
-    workspace.islands.roll_back();
-    judge(problem, impulses, true, workspace, report);
-  }
-
-  /// Measures impulses of which some are those of islands.
-  /// @param sweeps_converged whether sweeps, if there were any, met their stopping test
-  template <class Operator, class Law>
-  void judge(ContactProblem<Operator, Law>& problem, std::span<typename Operator::Vector> impulses,
-             bool sweeps_converged, Workspace<Operator, Law>& workspace,
-             SolveReport& report) const {
-    auto& [sweeps, first, islands] = workspace;
-    const std::span<const typename Operator::Vector> known = impulses;
-    if (sweeps.is_started())
-      sweeps.take(problem.delassus, known, team_);
-    else
-      detail::set_impulses<Operator>(problem.delassus, known);
-    islands.move(problem.delassus);
-    islands.add_approach(problem);
-    if (sweeps.is_started()) {
-      sweeps.take_velocities(problem.delassus);
-      sweeps.measure_residual(problem, known, report, team_);
-    } else {
-      measure_residual(problem, known, report, team_);
-    }
-    islands.write(report);
-    const bool by_changes = options_.stop_test == StopTest::qm16 && sweeps_converged;
-    // The remaining approach is relative to that without impulses, which may be rounding. Errors of islands are relative
-    // to the load.
-    const bool closed = detail::is_closed(report) || islands.all_solved();
-    report.converged = closed && (by_changes || report.residual <= options_.tolerance) &&
-                       report.unsolved_islands == 0;
-    report.capped = !report.converged;
-  }
 
   /// Sweeps over all contacts, in at most two attempts.
   template <class Operator, class Law>
-  SolveReport sweep(ContactProblem<Operator, Law>& problem,
-                    std::span<typename Operator::Vector> impulses,
-                    Workspace<Operator, Law>& workspace) const {
+  MOREAU_COMPILED_ONCE SolveReport sweep(ContactProblem<Operator, Law>& problem,
+                                         std::span<typename Operator::Vector> impulses,
+                                         Workspace<Operator, Law>& workspace) const {
     const SolveReport first = attempt(problem, impulses, workspace.sweeps, options_.max_sweeps,
                                       options_.accelerate, options_.tolerance);
     // The result is worse than without impulses: the warm start or the acceleration made the sweeps diverge.
