@@ -7,10 +7,13 @@
 
 #include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
+#include "moreau/shape/ball.hpp"
+#include "moreau/world/simulation.hpp"
 
 namespace {
 
-using S = moreau::Space<2>;
+using namespace moreau;
+using S = Space<2>;
 using Springs = moreau::LinearSpringDashpot<double>;
 using Hertz = moreau::HertzMindlin<double>;
 
@@ -49,16 +52,38 @@ TEST_CASE("a contact that slides throughout carries mu times the normal impulse"
   check(impact(Hertz(1e7, 2e6, 0.3, 0.5), 100));
 }
 
+TEST_CASE_TEMPLATE("the arguments of a simulation are those of one under a set-valued law", ShapeT,
+                   Disk<>, Ball<>) {
+  using Law = LinearSpringDashpot<>;
+  Tolerances tolerances;
+  tolerances.margin = 0.1;
+  const Simulation<ShapeT, Law> world(0.02, Law(1e5), {}, tolerances), short_form(0.02, Law(1e5)),
+      without_solver(0.02, Law(1e5), tolerances);
+  CHECK(world.tolerances().margin == 0.1);
+  CHECK(without_solver.tolerances().margin == 0.1);
+  CHECK(short_form.tolerances().margin == Tolerances().margin);
+}
+
 TEST_CASE("the duration of an impact is that of the law") {
-  const Springs law(1e5, 0, 0, 0.5);
-  S::Vector memory = S::Vector::Zero();
-  double x = 0, v = -1, time = 0, force = 1;
-  for (const double h = 1e-7; force > 0 || time == 0; time += h) {
-    x += h * v;
-    force = law.force(moreau::ContactMotion<S>{x, S::Vector(v, 0), 1, 0.05, h}, memory)[0];
-    v += h * force;
+  const auto last = [](const auto& law, double v) {
+    S::Vector memory = S::Vector::Zero();
+    double x = 0, time = 0, force = 1;
+    for (const double h = 1e-7; force > 0 || time == 0; time += h) {
+      x += h * v;
+      force = law.force(moreau::ContactMotion<S>{x, S::Vector(v, 0), 1, 0.05, h}, memory)[0];
+      v += h * force;
+    }
+    return time;
+  };
+  const Springs springs(1e5, 0, 0, 0.5);
+  CHECK(last(springs, -1) == doctest::Approx(springs.duration(1)).epsilon(1e-3));
+  for (const double speed : {0.01, 1.0}) {
+    const Hertz bouncing(1e7), damped(1e7, 0, 0, 0.3);
+    CHECK(last(bouncing, -speed) ==
+          doctest::Approx(bouncing.duration(1, 0.05, speed)).epsilon(1e-3));
+    CHECK(last(damped, -speed) ==
+          doctest::Approx(1.25 * damped.duration(1, 0.05, speed)).epsilon(0.05));
   }
-  CHECK(time == doctest::Approx(law.duration(1)).epsilon(1e-3));
 }
 
 TEST_CASE("friction takes energy after a step whose normal force was cut to zero") {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "moreau/law/compliant.hpp"
+#include "moreau/law/hertz_mindlin.hpp"
 #include "moreau/law/linear_spring_dashpot.hpp"
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/mesh/facet_mesh.hpp"
@@ -700,6 +701,21 @@ TEST_CASE_TEMPLATE(
   CHECK(check(lid, lid.step(h)).empty());  // it still moves down
   lid.set_force(BodyId(1), T(9.81) * up);
   CHECK(says(lid, "the force on wall 1, -9.81 N along its normal, pulls it away from the grains"));
+  // A lid that slides: set_velocity() in every step holds it back, in the air and where it touches grains a little.
+  for (const bool is_held_back : {false, true}) {
+    auto shear = box();
+    shear.set_wall_mass(BodyId(1), 5);
+    shear.set_force(BodyId(1), T(-50) * up);
+    bool said = false;
+    for (int k = 0; k < 100; ++k) {
+      const T along = is_held_back || k == 0 ? T(0) : T(shear.velocity(BodyId(1)).dot(up));
+      shear.set_velocity(BodyId(1), Vector(T(0.1) * Vector::UnitX() + along * up));
+      const auto all = check(shear, shear.step(h));
+      said = one_contains(all, "wall 1 slides, and began the step at rest along its normal");
+      REQUIRE(said == (is_held_back && k > 0));
+      REQUIRE(all.size() == std::size_t(said));
+    }
+  }
   // Neither of a wall that gravity pulls away from the grains, nor of one beside them.
   auto floor = box();
   floor.set_wall_mass(BodyId(0), 5);
@@ -712,7 +728,7 @@ TEST_CASE_TEMPLATE(
     auto twice = box();
     twice.add_wall(up, Vector(7 * Vector::UnitX() - apart * up));
     const auto all = check(twice, twice.step(h));
-    CHECK(one_contains(all, "walls 0 and 3 lie in the same plane") == (apart < T(1e-3) * size));
+    CHECK(one_contains(all, "walls 0 and 3 lie in the same place") == (apart < T(1e-3) * size));
     CHECK(all.size() == std::size_t(apart < T(1e-3) * size));
   }
 
@@ -738,6 +754,45 @@ TEST_CASE_TEMPLATE(
         CHECK(one_contains(all, "is in revolutions per minute, type ") == (share > 1));
       if (!is_obstacle) CHECK(all.size() == std::size_t(share > 1));
     }
+}
+
+TEST_CASE_TEMPLATE("check: a mesh in millimetres around grains in metres", ShapeT,
+                   MOREAU_TYPES((Disk<>, Polyhedron<>), (Polygon<>, Ball<>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  constexpr T size = T(0.02);
+  // A box with its corner in the origin, 0.4 m wide.
+  const auto box = [&](T unit) {
+    FacetMesh<S> mesh;
+    for (unsigned corner = 0; corner < 1u << S::dim; ++corner) {
+      Vector& x = mesh.vertices.emplace_back();
+      for (int k = 0; k < S::dim; ++k) x[k] = T(corner >> k & 1u);
+    }
+    if constexpr (S::dim == 2)
+      mesh.facets = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
+    else
+      mesh.facets = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    Simulation<ShapeT, Coulomb> made(size, Coulomb(T(0.5)));
+    made.add_mesh_wall(scaled(mesh, T(0.4) * unit), {}, WallSides::both);
+    const ShapeId shape = made.add_shape(regular_shape<ShapeT>(size));
+    for (const T x : {T(0.05), T(0.35)})
+      made.add_grain(shape, Pose<S>(Vector(Vector::Constant(x))), 2700);
+    made.set_gravity(T(-9.81) * Vector::Unit(S::dim - 1));
+    return made;
+  };
+  for (const T unit : {T(1), T(25), T(1000)}) {
+    auto world = box(unit);
+    const auto all = check(world, world.step(T(1e-4)));
+    CHECK(one_contains(all, "add scaled(mesh, 0.001)") == (unit == 1000));
+    CHECK(all.size() == std::size_t(unit == 1000));
+  }
+  // A grain elsewhere in a large mesh, and a large floor, are what they are.
+  auto apart = box(1000);
+  apart.add_grain(ShapeId(0), Pose<S>(Vector(Vector::Constant(T(30)))), 2700);
+  CHECK(!one_contains(check(apart, apart.step(T(1e-4))), "add scaled(mesh, 0.001)"));
 }
 
 TEST_CASE_TEMPLATE("check: a drum that turns too fast", ShapeT,
@@ -851,5 +906,21 @@ TEST_CASE_TEMPLATE("check: a step that does not resolve an impact", ShapeT,
     CHECK(one_contains(all, "does not resolve an impact of two of the lightest grains") ==
           (share > T(0.2)));
     CHECK(all.size() == std::size_t(share > T(0.2)));
+  }
+  // The duration of Hertz's impact depends on the speed: nothing is said before two grains approach.
+  using Hertz = HertzMindlin<T>;
+  const Hertz soft(T(1e7), T(1e6), T(0.4), T(0.5));
+  for (const T share : {T(0.05), T(0.19), T(0.21), T(0.5)}) {
+    Simulation<ShapeT, Hertz> world(T(0.02), soft);
+    const ShapeId shape = world.add_shape(ShapeT(T(0.01)));
+    const BodyId ball =
+        world.add_grain(shape, Pose<S>(Vector(T(0.0102) * Vector::Unit(S::dim - 1))), T(2700));
+    world.add_wall(Vector::Unit(S::dim - 1), Vector::Zero());
+    const T h = share * soft.duration(world.bodies().grain_mass[0] / 2, T(0.005), T(1));
+    CHECK(check(world, world.step(h)).size() == 0);
+    world.set_velocity(ball, -Vector::Unit(S::dim - 1));
+    const auto all = check(world, world.step(T(1.001) * h));
+    CHECK(one_contains(all, "does not resolve an impact of two of the lightest grains") ==
+          (share > T(0.2)));
   }
 }

@@ -9,7 +9,9 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/measure/contact_classes.hpp"
+#include "moreau/measure/fabric.hpp"
 #include "moreau/measure/force_chains.hpp"
+#include "moreau/measure/stress.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
 #include "moreau/world/simulation.hpp"
@@ -136,5 +138,13 @@ TEST_CASE_TEMPLATE("a grain on obstacles has the coordination number of one on w
       for (const auto& share : contact_classes(world, T(1e-3)).shares)
         neighbours += share.neighbours;
       CHECK(neighbours == 2);
+      // The branch vectors end at the obstacles, as at walls, and there is no pair of grains.
+      const Aabb<S> box{Vector::Constant(T(-0.1)), Vector::Constant(T(0.1))};
+      double pushes = 0;
+      for (const auto& impulse : world.contacts().impulses) pushes += double(impulse[0]) / 1e-3;
+      const double trace = double(radius) * pushes / std::pow(0.2, S::dim);
+      const auto stress = contact_stress(world, T(1e-3), box);
+      CHECK(double(stress.trace()) == doctest::Approx(trace).epsilon(1e-5));
+      CHECK(fabric(world, T(1e-3), box).pairs == 0);
     }
 }

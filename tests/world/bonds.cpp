@@ -561,6 +561,10 @@ TEST_CASE_TEMPLATE("bond: a stone of bonded parts is one body until it breaks", 
   CHECK(before.bonds >= 2 * (count - 1));
   CHECK(before.coordination == doctest::Approx(double(before.bonds) / double(count)));
   CHECK(before.least_strength == 1);
+  auto held = world;  // an obstacle is no fragment, and has no mean of its own
+  for (const BodyId part : parts) held.prescribe_motion(part);
+  CHECK(bond_state(held).fragments == 1);
+  CHECK(bond_state(held).coordination == doctest::Approx(before.coordination));
   CHECK(before.strength_left == doctest::Approx(1));
   // Forces on one part alone, far below the strength, move the stone as the rigid body of the compound.
   const auto properties = stone.mass_properties(T(1000));

@@ -136,6 +136,21 @@ TEST_CASE_TEMPLATE("the energy balance closes while an intruder moves", ShapeT, 
   energy.rebase(world);
   for (int k = 0; k < 50; ++k) energy.add(world, world.step(h), h);
   CHECK(std::abs(energy.imbalance() - before) < 1e-10 * energy.terms().drives);
+
+  // A forgotten rebase() is refused where it would matter: of bodies that move.
+  const auto add = [&] { energy.add(world, world.step(h), h); };
+  const auto is_refused = doctest::Contains("EnergyBalance::add: body = ");
+  world.set_wall_mass(wall, 2);
+  CHECK_THROWS_WITH_AS(add(), is_refused, std::invalid_argument);
+  energy.rebase(world);
+  world.release(scene.grains[2]);
+  CHECK_THROWS_WITH_AS(add(), is_refused, std::invalid_argument);
+  energy.rebase(world);
+  world.prescribe_motion(scene.grains[4]);
+  CHECK_THROWS_WITH_AS(add(), is_refused, std::invalid_argument);
+  energy.rebase(world);
+  world.set_wall_mass(scene.walls[1], 3);
+  CHECK_NOTHROW(add());
 }
 
 TEST_CASE_TEMPLATE("release() is the inverse of prescribe_motion()", ShapeT, Polygon<>,

@@ -72,6 +72,15 @@ class HertzMindlin {
   T young() const { return young_; }        ///< E, effective [Pa]
   T shear() const { return shear_; }        ///< G, effective [Pa]
   T friction() const { return friction_; }  ///< mu [-]
+  /// How long an impact without loss lasts, 2.87 (m^2 / (R E^2 v))^(1/5) [s]; a twentieth of it is a good step. With
+  /// loss it is longer, by a quarter with a restitution of 0.3.
+  /// @param effective_mass,effective_radius m and R of the point, see ContactMotion [kg; m], > 0; not checked
+  /// @param speed                           v of the approach [m/s]; infinite for 0
+  T duration(T effective_mass, T effective_radius, T speed) const {
+    return T(2.8683) *
+           std::pow(effective_mass * effective_mass / (effective_radius * young_ * young_ * speed),
+                    T(0.2));
+  }
 
   /// Force on b in the frame of the contact, normal first, f_n >= 0 [N]; zero if the gap is open.
   /// @param motion of the contact; its effective mass and radius are m and R

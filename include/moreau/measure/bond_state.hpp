@@ -6,10 +6,12 @@
 #include <cstddef>
 
 #include "moreau/core/disjoint_sets.hpp"
+#include "moreau/measure/detail/of_simulation.hpp"
 
 namespace moreau {
 
-/// The bonds of a simulation in numbers. Walls have no coordination and join no fragments.
+/// The bonds of a simulation in numbers. Walls and obstacles, the grains of prescribed motion, have no coordination, join no
+/// fragments, and are none.
 struct BondState {
   std::size_t bonds = 0;      ///< that have not broken
   double coordination = 0;    ///< mean number of bonds of a grain [-]
@@ -25,19 +27,20 @@ BondState bond_state(const Simulation& simulation) {
   BondState state;
   detail::DisjointSets fragments(simulation.bodies().size());
   state.bonds = simulation.bonds().size();
-  state.fragments = simulation.grain_count();
+  const auto is_grain = detail::free_grain_in(simulation);
+  std::size_t grains = 0;
+  for (std::size_t i = 0; i < simulation.bodies().size(); ++i) grains += is_grain(i) ? 1u : 0u;
+  state.fragments = grains;
   state.least_strength = state.bonds > 0 ? 1 : 0;
   std::size_t ends = 0;
   for (const auto& bond : simulation.bonds()) {
-    const bool has_a = simulation.is_grain(bond.a.index()),
-               has_b = simulation.is_grain(bond.b.index());
+    const bool has_a = is_grain(bond.a.index()), has_b = is_grain(bond.b.index());
     ends += std::size_t(has_a) + std::size_t(has_b);
     state.strength_left += double(bond.strength_left) / double(state.bonds);
     state.least_strength = std::min(state.least_strength, double(bond.strength_left));
     if (has_a && has_b && fragments.unite(bond.a.index(), bond.b.index())) --state.fragments;
   }
-  if (simulation.grain_count() > 0)
-    state.coordination = double(ends) / double(simulation.grain_count());
+  if (grains > 0) state.coordination = double(ends) / double(grains);
   return state;
 }
 

@@ -73,9 +73,11 @@ class SentencesOnce {
 ///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass, or along a wall that
 ///            has one; the motion of all bodies is prescribed
 ///          - a wall with a mass has passed a parallel wall that faces it; two walls lie in the same plane or place; a wall with a mass
-///            above grains has no force, as gravity does not act on it; the force on a wall with a mass pulls it away from the grains
+///            above grains has no force, as gravity does not act on it; the force on a wall with a mass pulls it away from the
+///            grains, or set_velocity() holds it back in every step
 ///          - a grain, a wall or an obstacle turns so fast that its surface moves by more than half a grain size in the step (rpm)
-///          - a grain that is not compound lies behind the nearest facet of a mesh wall with one side
+///          - a grain that is not compound lies behind the nearest facet of a mesh wall with one side; all grains lie in a
+///            thousandth of a mesh wall, which is probably in mm
 ///          - the step is longer than a fifth of the duration of an impact of the lightest grains, under a law with duration()
 ///          - a grain moves by more than a grain size in the step, although no contact approaches as fast
 ///          - after the first step: gravity is zero, no body has a velocity or a force, and no contact overlaps: nothing
@@ -98,11 +100,14 @@ template <class Simulation>
                        {simulation.tolerances().margin * size, is_first, older,
                         is_deep ? detail::pressing_body(simulation) : -1,
                         is_deep ? detail::one_sided_wall(simulation, report) : -1});
-  detail::check_units(found, simulation, report.step);
+  detail::check_units(found, simulation, report);
   detail::check_motion(found, simulation, report);
   detail::check_meshes(found, simulation);
   detail::check_creep(found, simulation, report);
-  if constexpr (requires { simulation.missed_gap(); }) detail::check_bonds(found, simulation);
+  if constexpr (requires { simulation.missed_gap(); })
+    detail::check_bonds(found, simulation, report);
+  if constexpr (requires { simulation.materials().laws()[0].normal_compliance(); })
+    detail::check_compliance(found, report);
   if (!is_first && detail::is_idle(simulation, report))
     found.say(
         "nothing moves: gravity is zero, and no body has a velocity or a force. Call set_gravity()",

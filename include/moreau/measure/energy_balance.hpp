@@ -106,8 +106,9 @@ class EnergyBalance {
 
   /// Adds the last step to the balance. Forces and gravity must still be those of this step.
   /// @param step length of the step [s], > 0: that of the report
-  /// @throws std::invalid_argument if the step is not positive or not that of the report, or if bodies were added or
-  ///                               removed since the start or the last rebase()
+  /// @throws std::invalid_argument if the step is not positive or not that of the report, or if since the start or the last
+  ///                               rebase() bodies were added or removed, or a body that moves was released, its motion was
+  ///                               prescribed, or it got another mass
   template <class Simulation>
   void add(const Simulation& simulation, const StepReport& report, Scalar step) {
     require_positive(step, "EnergyBalance::add", "step");
@@ -140,6 +141,7 @@ class EnergyBalance {
  private:
   friend struct SerializationAccess;
   auto serialized_members() { return std::tie(terms_, positions_, spins_, ids_, kinetic_, start_); }
+  void deserialized() { inverse_masses_.clear(); }
 
   /// The component of a vector along those axes of the body along which the body has a mass.
   static Vector with_mass(const Bodies<S>& bodies, std::size_t i, const Vector& x);
@@ -173,6 +175,7 @@ class EnergyBalance {
   std::vector<typename S::Angular> spins_;
   List<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
+  std::vector<Vector> inverse_masses_;  // of bodies that move, else < 0
 };
 
 // Outside of the class, so that moreau::instances has them compiled.
@@ -216,6 +219,12 @@ void EnergyBalance<S>::add_work_of_forces(const Bodies<S>& bodies, const Vector&
   require(
       bodies.id == ids_, "EnergyBalance::add", "simulation", "(bodies were added or removed)",
       "must have the bodies of the start of the balance or of the last rebase(): call rebase()");
+  // A snapshot has no masses: after it was read, the first step is not checked.
+  for (std::size_t i = 0; i < inverse_masses_.size(); ++i)
+    require(inverse_masses_[i][0] < 0 || inverse_masses_[i] == bodies.inverse_mass[i],
+            "EnergyBalance::add", "body", i,
+            "moves, and was released, or its motion was prescribed, or it got another mass: call "
+            "rebase() before the step");
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Vector way = bodies.pose[i].position - positions_[i];
     const Vector force = linear<S>(bodies.force[i]);
@@ -244,11 +253,13 @@ void EnergyBalance<S>::remember(const Bodies<S>& bodies) {
   positions_.resize(bodies.size());
   spins_.resize(bodies.size());
   ids_ = bodies.id;
+  inverse_masses_ = {bodies.inverse_mass.begin(), bodies.inverse_mass.end()};
   kinetic_ = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     positions_[i] = bodies.pose[i].position;
     spins_[i] = angular<S>(bodies.velocity[i]);
     kinetic_ += kinetic_energy(bodies, i);
+    if (bodies.velocity[i].isZero(0)) inverse_masses_[i].setConstant(-1);
   }
 }
 

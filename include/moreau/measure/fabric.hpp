@@ -41,7 +41,7 @@ struct Fabric {
 /// @param pairs          result of pair_forces()
 /// @param control_volume world axes [m]
 /// @param position_of    function: index of a body -> its centre of mass in world axes [m]
-/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall
+/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall or an obstacle
 /// @param cell           periodic cell of the simulation. A pair is counted if one of its images
 ///                       lies in the control volume, which must not be longer than the cell
 /// @throws std::invalid_argument if the control volume is empty, inverted, not finite, or longer than
@@ -66,7 +66,8 @@ Fabric<S> fabric(std::span<const PairForce<S>> pairs, const Aabb<S>& control_vol
   return result;
 }
 
-/// The same for the grains of a simulation and its last step, also in a periodic cell.
+/// The same for the grains of a simulation and its last step, also in a periodic cell. An obstacle, a grain of prescribed
+/// motion, counts as a wall.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
 template <class Simulation>
@@ -76,7 +77,7 @@ Fabric<typename Simulation::S> fabric(const Simulation& simulation,
   using S = typename Simulation::S;
   const auto pairs = pair_forces(simulation, step);
   return fabric<S>(std::span<const PairForce<S>>(pairs), control_volume,
-                   detail::position_in(simulation), detail::grain_in(simulation),
+                   detail::position_in(simulation), detail::free_grain_in(simulation),
                    simulation.cell());
 }
 

@@ -33,7 +33,7 @@ struct Region {
 };
 
 /// Measures the grains of a simulation in a control volume, also in a periodic cell. Grains whose motion is
-/// prescribed count.
+/// prescribed count; in the stress they count as walls.
 /// @param simulation     a Simulation
 /// @param step           length of its last step [s], > 0
 /// @param control_volume world axes [m]; for the stress it must end a grain diameter inside the walls, see

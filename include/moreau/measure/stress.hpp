@@ -29,7 +29,7 @@ namespace moreau {
 /// @param step           length of the step [s], > 0, by which impulses are divided
 /// @param control_volume world axes [m]
 /// @param position_of    function: index of a body -> its centre of mass in world axes [m]
-/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall
+/// @param is_grain       function: index of a body (BodyId::index()) -> false for a wall or an obstacle
 /// @param cell           periodic cell of the simulation. A point is counted if one of its images
 ///                       lies in the control volume, which must not be longer than the cell. The
 ///                       positions may be those of any image, because branch vectors are computed
@@ -63,7 +63,8 @@ Value<typename S::Matrix> contact_stress(const Contacts<S, Rows>& contacts, type
   return sum.over(double(step) * double(volume(control_volume)));
 }
 
-/// The same for the grains of a simulation and its last step, also in a periodic cell.
+/// The same for the grains of a simulation and its last step, also in a periodic cell. An obstacle, a grain of prescribed
+/// motion, counts as a wall: the forces on it do not balance, and the branch vector ends at the contact point.
 /// @param simulation a Simulation
 /// @param step       length of its last step [s], > 0
 /// @throws std::invalid_argument also if the step is a hundred times longer or shorter than the last one
@@ -74,7 +75,7 @@ Value<typename Simulation::S::Matrix> contact_stress(
   require_positive(step, "contact_stress", "step");
   detail::require_unit_of_step(simulation, step, "contact_stress");
   return contact_stress(simulation.contacts(), step, control_volume,
-                        detail::position_in(simulation), detail::grain_in(simulation),
+                        detail::position_in(simulation), detail::free_grain_in(simulation),
                         simulation.cell());
 }
 

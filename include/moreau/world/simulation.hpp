@@ -100,6 +100,11 @@ class Simulation : public BodyControl<ShapeT> {
   Simulation(Scalar grain_size, const Materials<Law>& materials, const Tolerances& tolerances = {},
              const Integrator& integrator = Integrator{}) requires(!set_valued)
       : Simulation(grain_size, materials, tolerances, Parts(integrator)) {}
+  /// The same with the arguments of a set-valued law: Simulation(grain_size, law, {}, tolerances).
+  template <std::same_as<Tolerances> T>
+  Simulation(Scalar grain_size, const Materials<Law>& materials, const Solver&, const T& tolerances,
+             const Integrator& integrator = Integrator{}) requires(!set_valued)
+      : Simulation(grain_size, materials, tolerances, integrator) {}
   /// Refused in one sentence: the friction is an argument of the law.
   template <std::floating_point Number>
   Simulation(Scalar, Number, const auto&...)

@@ -9,6 +9,7 @@
 
 #include "moreau/core/ids.hpp"
 #include "moreau/measure/detail/check_report.hpp"
+#include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
 
@@ -48,7 +49,20 @@ template <class Simulation>
 
 /// @param simulation under a law with bonds
 template <class Simulation>
-[[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation) {
+[[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation,
+                               const StepReport& report) {
+  if (report.bond_error > 1e-3 && report.solve.residual < report.bond_error)
+    found.say(
+        "bonds bear % of their strength on average: their forces have the rounding of the strength "
+        "and are known only to about % of themselves. Use double precision, or a smaller strength",
+        {report.bond_load, report.bond_error});
+  else if (report.bond_error > 1e-3)
+    found.say(
+        "the forces of bonds are known only to about the residual %: structures of many bonds bend "
+        "and break at wrong loads. Use a smaller tolerance and more sweeps: "
+        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = 1e-6, .max_sweeps = "
+        "20000}))",
+        {report.bond_error});
   const double missed = double(simulation.missed_gap());
   if (simulation.missed_points() > 0)
     found.say(

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "moreau/core/aabb.hpp"
 #include "moreau/core/compiled_once.hpp"
 #include "moreau/core/ids.hpp"
 #include "moreau/detect/pairs/behind_facet.hpp"
@@ -28,11 +29,40 @@ template <class Simulation>
   return -1;
 }
 
+/// Names a mesh wall around grains that is hundreds of grain sizes long along every axis, if all free grains lie in a thousandth
+/// of it about its origin.
+template <class Simulation>
+MOREAU_INLINED inline void check_mesh_units(Findings& found, const Simulation& simulation) {
+  using S = typename Simulation::S;
+  using Scalar = typename S::Scalar;
+  const auto& bodies = simulation.bodies();
+  for (const auto& mesh : simulation.mesh_walls()) {
+    const Aabb<S> bounds = mesh.shape.tree().bounds();
+    const typename S::Vector length = bounds.upper - bounds.lower;
+    bool inside = length.minCoeff() > 300 * simulation.grain_size(), any = false;
+    const Aabb<S> box = Aabb<S>(Scalar(1e-3) * bounds.lower, Scalar(1e-3) * bounds.upper)
+                            .inflated(simulation.grain_size());
+    for (const BodyId grain : simulation.grains()) {
+      if (!inside) break;
+      const std::size_t i = grain.index();
+      if (bodies.is_prescribed(i)) continue;
+      inside = box.contains(bodies.pose[mesh.body.index()].to_body(bodies.pose[i].position));
+      any = true;
+    }
+    if (inside && any)
+      return found.say(
+          "mesh wall % is % m long, and all grains lie in a thousandth of it. If it is in mm, add "
+          "scaled(mesh, 0.001)",
+          {double(mesh.body.index()), double(length.maxCoeff())});
+  }
+}
+
 /// Names a grain whose centre lies behind the facet that is nearest to it. The centre of a compound grain can lie there although
 /// the grain is in front.
 template <class Simulation>
 MOREAU_INLINED inline void check_meshes([[maybe_unused]] Findings& found,
                                         [[maybe_unused]] const Simulation& simulation) {
+  check_mesh_units(found, simulation);
   using Shape = std::remove_cvref_t<decltype(simulation.shape_of_grain(0))>;
   if constexpr (!CompoundShape<Shape>) {
     using S = typename Simulation::S;

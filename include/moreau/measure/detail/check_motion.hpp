@@ -54,7 +54,7 @@ MOREAU_INLINED inline void check_walls(Findings& found, const Simulation& simula
           bodies.velocity[i] == bodies.velocity[k] &&
           std::abs(normal.dot(way)) <= Scalar(1e-3) * simulation.grain_size())
         return found.say(
-            "walls % and % lie in the same plane: grains touch both, each has a part of the force, "
+            "walls % and % lie in the same place: grains touch both, each has a part of the force, "
             "and springs and attraction act twice. Add the wall once",
             {double(i), double(k)});
       if (bodies.is_prescribed(i) || normal.dot(way) >= 0 || normal.dot(facing) >= Scalar(-0.9999))
@@ -103,9 +103,12 @@ MOREAU_INLINED inline void check_twice(Findings& found, const Simulation& simula
   });
 }
 
-/// Names a wall with a mass above grains on which no force acts, and one that its force pulls away from grains.
+/// Names a wall with a mass above grains on which no force acts, one that its force pulls away from grains, and one that slides
+/// and begins a step without velocity along its normal, which forces and contacts then give it: set_velocity() of a lid
+/// in every step.
 template <class Simulation>
-MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simulation) {
+MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simulation,
+                                         double step) {
   using S = typename Simulation::S;
   using Vector = typename S::Vector;
   const auto& bodies = simulation.bodies();
@@ -115,9 +118,18 @@ MOREAU_INLINED inline void check_weights(Findings& found, const Simulation& simu
     if (simulation.is_grain(i) || !(inverse > 0)) continue;
     const Vector normal = bodies.axes(i).col(0);
     if (!bodies.force[i].isZero(0)) {
-      const auto push = double(normal.dot(linear<S>(bodies.force[i])));
-      if (push < 0 && normal.dot(linear<S>(bodies.velocity[i])) < 0 &&
-          simulation.contact_impulse(simulation.body_id(i)).isZero(0))
+      const Vector impulse = simulation.contact_impulse(simulation.body_id(i)),
+                   velocity = linear<S>(bodies.velocity[i]);
+      const auto push = double(normal.dot(linear<S>(bodies.force[i]))),
+                 speed = double(normal.dot(velocity)), gain = push * step * inverse,
+                 before = speed - gain - double(normal.dot(impulse)) * inverse;
+      if (std::abs(before) < 1e-3 * std::abs(speed) && std::abs(speed) > 0.1 * std::abs(gain) &&
+          double(velocity.norm()) > 1.001 * std::abs(speed) && simulation.time() > 1.5 * step)
+        return found.say(
+            "wall % slides, and began the step at rest along its normal. If "
+            "set_velocity() is called in each step, it holds the wall back: take a VelocityDrive",
+            {double(i)});
+      if (push < 0 && speed < 0 && impulse.isZero(0))
         return found.say(
             "the force on wall %, % N along its normal, pulls it away from the grains, and it "
             "touches none. If it shall press, turn the sign of the force or of the pressure",
@@ -203,7 +215,7 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
   }
   check_walls(found, simulation);
   check_twice(found, simulation);
-  check_weights(found, simulation);
+  check_weights(found, simulation, report.step);
   check_spins(found, simulation, report.step);
   if (in_vain < bodies.size())
     found.say(
@@ -222,10 +234,8 @@ MOREAU_INLINED inline void check_motion(Findings& found, const Simulation& simul
         {double(fastest), most * report.step, most * report.step / double(simulation.grain_size()),
          most});
   if (!any_free)
-    found.say(
-        "the motion of all bodies is prescribed, and no force moves one. Call release() for grains "
-        "that shall move",
-        {});
+    found.say("the motion of all bodies is prescribed. Call release() for grains that shall move",
+              {});
 }
 
 }  // namespace moreau::detail

@@ -171,18 +171,10 @@ MOREAU_INLINED inline void check_solve(Findings& found, const SolveReport& solve
         "OverlapCorrectionOptions::max_shift; the bodies stay inside one another for many steps",
         {double(report.correction.limited)});
   check_solve(found, report.solve);
-  if (report.bond_error > 1e-3 && report.solve.residual < report.bond_error)
-    found.say(
-        "bonds bear % of their strength on average: their forces have the rounding of the strength "
-        "and are known only to about % of themselves. Use double precision, or a smaller strength",
-        {report.bond_load, report.bond_error});
-  else if (report.bond_error > 1e-3)
-    found.say(
-        "the forces of bonds are known only to about the residual %: structures of many bonds bend "
-        "and break at wrong loads. Use a smaller tolerance and more sweeps: "
-        "simulation.set_solver(moreau::ColouredGaussSeidel({.tolerance = 1e-6, .max_sweeps = "
-        "20000}))",
-        {report.bond_error});
+}
+
+/// Compliant contacts whose forces the residual leaves inaccurate.
+[[gnu::cold]] inline void check_compliance(Findings& found, const StepReport& report) {
   const double compliance = report.relative_compliance, residual = report.solve.residual;
   if (residual > 0.1 * compliance && compliance > 0)
     found.say(

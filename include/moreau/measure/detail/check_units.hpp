@@ -149,32 +149,48 @@ template <class Simulation>
 }
 
 /// A step that does not resolve an impact of two of the lightest grains, under a law that says how long it lasts. With a
-/// fifth of the duration the restitution of LinearSpringDashpot is wrong by up to 0.1, with a third by up to 0.4.
-/// @param lightest mass of a grain [kg]
+/// fifth of the duration the restitution of LinearSpringDashpot is wrong by up to 0.1, with a third by up to 0.4; that of
+/// HertzMindlin by up to 0.08 and 1, and with a half the speed is doubled and more.
+/// @param of       lightest: mass of a grain [kg], width: of a grain [m]
+/// @param approach largest approach velocity of the contacts of the step [m/s]
 template <class Simulation>
 [[gnu::cold]] void check_duration([[maybe_unused]] Findings& found,
                                   [[maybe_unused]] const Simulation& simulation,
-                                  [[maybe_unused]] double lightest, [[maybe_unused]] double step) {
+                                  [[maybe_unused]] const Extremes& of,
+                                  [[maybe_unused]] double approach) {
   using Scalar = typename Simulation::Scalar;
   using Law = std::remove_cvref_t<decltype(simulation.materials().laws()[0])>;
-  if constexpr (requires(const Law law) { double(law.duration(Scalar{})); }) {
+  constexpr bool by_mass = requires(const Law law, Scalar x) {
+    double(law.duration(x));
+  };
+  constexpr bool by_speed = requires(const Law law, Scalar x) {
+    double(law.duration(x, x, x));
+  };
+  if constexpr (by_mass || by_speed) {
     double duration = std::numeric_limits<double>::infinity();
-    for (const Law& law : simulation.materials().laws())
-      duration = std::min(duration, double(law.duration(Scalar(lightest / 2))));
-    if (step > 0.2 * duration)
+    for (const Law& law : simulation.materials().laws()) {
+      const auto mass = Scalar(of.lightest / 2);
+      if constexpr (by_mass)
+        duration = std::min(duration, double(law.duration(mass)));
+      else if (approach > 0)
+        duration =
+            std::min(duration, double(law.duration(mass, Scalar(of.width / 4), Scalar(approach))));
+    }
+    if (of.step > 0.2 * duration)
       found.say(
           "a step of % s does not resolve an impact of two of the lightest grains, which lasts % "
           "s: "
           "restitution and friction are not those of the law. Use a twentieth, % s, or softer "
           "springs",
-          {step, duration, round_down(duration / 20)});
+          {of.step, duration, round_down(duration / 20)});
   }
 }
 
 template <class Simulation>
-[[gnu::cold]] void check_units(Findings& found, const Simulation& simulation, double step) {
+[[gnu::cold]] void check_units(Findings& found, const Simulation& simulation,
+                               const StepReport& report) {
   Extremes of;
-  of.step = step;
+  of.step = report.step;
   const auto& bodies = simulation.bodies();
   const double size = double(simulation.grain_size());
   // Then, if all are wide, thicknesses, until a grain is thin enough: the smallest width of a hull takes long.
@@ -205,7 +221,8 @@ template <class Simulation>
       if (const double friction = double(law.friction()); friction >= 5 && friction <= 90)
         of.friction = std::max(of.friction, friction);
   check_range(found, simulation);
-  check_duration(found, simulation, of.lightest, step);
+  check_duration(found, simulation, of,
+                 report.approach * simulation.tolerances().margin * size / report.step);
   of.gravity = double(simulation.gravity().norm());
   judge(found, of, size);
   check_direction(found, simulation);
