@@ -740,3 +740,27 @@ void add(moreau::Simulation<Shape, moreau::SignoriniCoulomb<double>>& world,
   world.add_mesh_wall(mesh);
 }
 #endif  // mesh_wall_of_a_shape_without
+
+#ifdef apply_that_is_forgotten
+// Drives, servos, sources and sinks act in apply() alone: without a call they are unused variables, of which -Wall warns.
+// expect: unused variable .*source
+// expect: unused variable .*shake
+// expect: unused variable .*lid
+#include "moreau/boundary/drive.hpp"
+#include "moreau/boundary/servo.hpp"
+#include "moreau/boundary/source.hpp"
+#include "moreau/moreau.hpp"
+
+#pragma GCC diagnostic error "-Wunused-variable"
+
+using World = moreau::Simulation<moreau::Ball<double>, moreau::SignoriniCoulomb<double>>;
+
+void run(World& world, moreau::BodyId wall, const moreau::SourceOptions<World::S>& options) {
+  moreau::Source<World::S> source(options);
+  const moreau::VelocityDrive shake(wall, World::Vector(1, 0, 0), [](double t) { return t; });
+  const moreau::PressureServo lid(wall, 1e4, 1e-4, 0.1, [] { return 1.0; });
+#ifdef MOREAU_CORRECTED
+  source.apply(world, 1e-3), shake.apply(world, 1e-3), lid.apply(world, 1e-3);
+#endif
+}
+#endif  // apply_that_is_forgotten

@@ -135,7 +135,7 @@ class Drive {
 /// prescribed, or a wall to which set_wall_mass has given a mass; of a DistributedSimulation, a wall. The
 /// force replaces the force that set_force() has set.
 template <class VectorT, class F>
-class ForceDrive : public detail::Drive<VectorT, F> {
+class [[gnu::warn_unused]] ForceDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:
@@ -166,7 +166,7 @@ class ForceDrive : public detail::Drive<VectorT, F> {
 /// as the lid of a shear cell. It replaces the velocity that set_velocity() has set; a wall with a mass keeps the
 /// velocity along its normal, which forces and contacts change.
 template <class VectorT, class F>
-class VelocityDrive : public detail::Drive<VectorT, F> {
+class [[gnu::warn_unused]] VelocityDrive : public detail::Drive<VectorT, F> {
   using Base = detail::Drive<VectorT, F>;
 
  public:

@@ -140,7 +140,7 @@ class PressureLoad {
 /// A pressure controlled by the velocity of a wall without set_wall_mass(), for grains under a
 /// regularized law (springs) or under Compliant<Law>.
 template <AreaFunction Area>
-class PressureServo {
+class [[gnu::warn_unused]] PressureServo {
  public:
   /// @param wall     id of a half-space without set_wall_mass(); apply() checks this
   /// @param pressure set point [Pa], in the plane [N/m]; > 0 pushes the wall on the grains

@@ -31,7 +31,7 @@ struct GrainSum {
 /// Removes the grains whose centre of mass is behind a plane or outside a box. Grains whose motion is
 /// prescribed stay. Snapshots can contain it: it then continues with its total().
 template <EuclideanSpace S>
-class Sink {
+class [[gnu::warn_unused]] Sink {
  public:
   /// A sink for the grains behind a plane.
   /// @param normal unit vector towards the grains that stay, world axes

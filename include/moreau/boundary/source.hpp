@@ -67,7 +67,7 @@ struct SourceOptions {
 /// The same seed gives the same grains. Snapshots can contain a source: it then continues with the
 /// same random numbers. The options are not part of a snapshot.
 template <EuclideanSpace S>
-class Source {
+class [[gnu::warn_unused]] Source {
  public:
   using Scalar = typename S::Scalar;
   using Vector = typename S::Vector;
