@@ -148,7 +148,7 @@ TEST_CASE("the couple of a block that turns on a floor is at its limit") {
 
 // Without the direct method a stack of 50 squares moved by 0.7 of its size in 3 s.
 TEST_CASE_TEMPLATE("blocks without bonds stand under a law with bonds", ShapeT,
-                   MOREAU_TYPES((Polyhedron<>, Polygon<>), (Polyhedron<float>, Polygon<float>))) {
+                   MOREAU_TYPES((Polygon<>), (Polyhedron<>, Polyhedron<float>, Polygon<float>))) {
   using S = SpaceOf<ShapeT>;
   using Scalar = typename S::Scalar;
   using Bonds = Stack<ShapeT, Bonded<Scalar>>;

@@ -6,6 +6,7 @@
 
 #include "moreau/law/signorini_coulomb.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/solve/nonlinear_gauss_seidel.hpp"
 #include "moreau/world/simulation.hpp"
 
 #include "types.hpp"
@@ -20,7 +21,9 @@ TEST_CASE_TEMPLATE("a cell deforms by its rate, however small the step", ShapeT,
   using Law = SignoriniCoulomb<T>;
   for (const double strain : {3e-8, 1e-6, 1.1e-5}) {
     CAPTURE(strain);
-    Simulation<ShapeT, Law> world(T(0.02), Materials<Law>(1, Law(T(0.4))));
+    // Nothing is in contact: the solver that takes least to compile.
+    Simulation<ShapeT, Law, MoreauJean, CellGrid<S>, NonlinearGaussSeidel> world(
+        T(0.02), Materials<Law>(1, Law(T(0.4))));
     const ShapeId shape = world.add_shape(ShapeT(T(0.01)));
     Pose<S> pose;
     pose.position.setConstant(T(0.05));

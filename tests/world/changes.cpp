@@ -256,7 +256,7 @@ TEST_CASE("springs push anew after what moves a body, or a law, has changed") {
 }
 
 TEST_CASE_TEMPLATE("a step does not visit the laws of all pairs of materials", SpaceT,
-                   MOREAU_TYPES((Space<2>, Space<3>), (Space<2, float>, Space<3, float>))) {
+                   MOREAU_TYPES((Space<2>), (Space<3>, Space<2, float>, Space<3, float>))) {
   using T = typename SpaceT::Scalar;
   using Law = Counted<T>;
   using Direction = typename SpaceT::Vector;

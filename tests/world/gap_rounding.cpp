@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/detect/collide.hpp"
@@ -40,17 +41,6 @@ typename S::Rotation any_rotation(std::mt19937& random) {
   return S::normalized(S::exp(w));
 }
 
-template <class ShapeT>
-struct InDouble;
-template <>
-struct InDouble<Polygon<float>> {
-  using Shape = Polygon<>;
-};
-template <>
-struct InDouble<Polyhedron<float>> {
-  using Shape = Polyhedron<>;
-};
-
 }  // namespace
 
 // Two cuboids whose faces lie on each other, and a cuboid on a plane.
@@ -59,7 +49,7 @@ TEST_CASE_TEMPLATE("rounding of gaps: detection leaves less than the bound of ha
   using S = SpaceOf<ShapeT>;
   using D = Space<S::dim>;
   using Vector = typename S::Vector;
-  using Exact = typename InDouble<ShapeT>::Shape;
+  using Exact = std::conditional_t<S::dim == 2, Polygon<>, Polyhedron<>>;
   std::mt19937 random(4);
   std::uniform_real_distribution<float> number(0, 1);
   double largest = 0;
