@@ -135,7 +135,10 @@ class IslandSolver {
       // Sweeps give the load of a pair to the point that they visit first.
       const double error =
           newton_.solve_near(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps});
-      if (keep(one, impulses, error, defect)) continue;
+      if (keep(one, impulses, error, defect)) {
+        made_even_ = made_even_ || one.is_new;
+        continue;
+      }
       if (one.is_new && newton_.is_better() && error <= std::max(near * tolerance_, even_enough)) {
         newton_.finish(impulses);
         one.error = error;

@@ -174,7 +174,7 @@ class ProximalStep {
   /// One proximal step from y_ and centre_ to next_ and found_.
   /// @returns whether Newton's method has converged
   MOREAU_INLINED bool make(double epsilon, int most_steps, double tolerance) {
-    constexpr double share = 0.03;
+    constexpr double share = 0.03, several = 10;
     constexpr int most_of_one = 30;  // structures take 2 to 6, packings that come to rest up to 20
     most_steps = std::min(most_steps, steps_ + most_of_one);
     next_ = y_;
@@ -185,7 +185,8 @@ class ProximalStep {
       find_scales(found_, next_);
       const double left = scales_.relative(points_, f_), exact = rounding / epsilon;
       const double aim = std::max(share * tolerance, exact);
-      const bool solved = !(left > aim);
+      // Rounding can leave a little more, in which steps change nothing.
+      const bool solved = !(left > aim) || (left > before / 2 && !(left > several * exact));
       // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
       if (!(left > (polishes() ? exact : aim)) ||
           (solved && (left > polish * before || steps_ == most_steps)))
