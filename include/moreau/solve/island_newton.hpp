@@ -166,7 +166,7 @@ class IslandNewton {
 
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
-  double slip() const { return step_.slip(); }
+  MOREAU_INLINED double slip() const { return step_.slip(); }
 
   /// Solves the island, from the impulses of start().
   /// @param epsilon of the first proximal step

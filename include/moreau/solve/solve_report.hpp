@@ -35,7 +35,7 @@ struct SolveReport {
   /// of its contacts gave to the body in the step, at most to the largest velocity that impulses gave to a body of its
   /// island. For a structure at rest this is g h. It is
   /// estimated by a direct method, which attempts structures at rest in every step, islands of many contacts
-  /// per body in some steps, and no colliding grains. Where the method does not succeed, it is a lower bound.
+  /// per body in some steps, and colliding grains in few steps. Where the method does not succeed, it is a lower bound.
   /// 0 if no island was attempted: small errors of many contacts then add up unseen.
   double velocity_error = 0;
   int islands = 0;           ///< that the direct method attempted

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +34,8 @@ concept HasIslands = CoulombLaw<Law, S> || RollingCoulombLaw<Law, S>;
 /// Where the warm start is near a solution, as in structures at rest, few steps are enough, before the sweeps, and where
 /// its defect shows that it is solved, none. Other islands are attempted after the sweeps, which takes as long as many
 /// sweeps. So that the work of a simulation stays in proportion, only some islands are, drawn by a hash of their state: a
-/// structure is solved some steps after it came to rest, and then stays so; colliding grains are left to the sweeps in
-/// most steps.
+/// structure is solved some steps after it came to rest, and then stays so. Structures of few contacts per body are attempted
+/// in every step, unless their bodies collide; colliding grains are left to the sweeps in most steps.
 template <class Operator, class Law>
 class IslandSolver {
  public:
@@ -77,6 +78,7 @@ class IslandSolver {
         take(problem, k);
         one.defect = start_newton(problem, impulses);
         newton_.take_scales([&](std::uint32_t body, double scale) { borne_[body] = scale; });
+        one.collides = collides(problem, one);
         if (!attempt_open(problem, one, impulses, one.defect) &&
             !attempt_evenly(problem, one, impulses, 0, one.defect, late_epsilon))
           attempt(one, impulses);
@@ -218,7 +220,7 @@ class IslandSolver {
     for (Small& one : small_) one.error = one.start_error;
   }
   /// Writes the results of the islands.
-  void write(SolveReport& report) const {
+  MOREAU_INLINED void write(SolveReport& report) const {
     report.islands = report.unsolved_islands = 0;
     report.velocity_error = 0;
     for (const Small& one : small_) {
@@ -237,12 +239,13 @@ class IslandSolver {
   struct Small {
     std::size_t island;
     double cost;  // of a Newton step, in visits of its contacts by a sweep, at first a lower bound
-    double defect;        // of the warm start, see IslandNewton::start()
-    bool is_new;          // no contact has an impulse in the warm start
-    double error;         // relative [-]
-    double start_error;   // the same of the impulses from which the direct method started, at least
-    bool falls;           // no contact closes, or hardly: hardly_closes()
-    bool failed = false;  // attempt_evenly()
+    double defect;       // of the warm start, see IslandNewton::start()
+    bool is_new;         // no contact has an impulse in the warm start
+    double error;        // relative [-]
+    double start_error;  // the same of the impulses from which the direct method started, at least
+    bool falls;          // no contact closes, or hardly: hardly_closes()
+    bool collides = false;  // see collides()
+    bool failed = false;    // attempt_evenly()
     bool squeezed = false;  // add_approach(): there is no solution
   };
   static constexpr double not_attempted = std::numeric_limits<double>::infinity();
@@ -294,12 +297,43 @@ class IslandSolver {
             {least, double(problem.rounding[body]), least_share * double(problem.load[body])});
     return !(closing > least);
   }
+  /// Whether grains collide in the island that take() took: loads alone would take several steps to make contacts close as
+  /// fast, and the warm start is far from a solution. Errors of an impact do not add up from step to step, so that those of
+  /// sweeps are small enough. But not if the direct method takes little, of few bodies, if a light body is among heavy ones,
+  /// or if all faces land flat: of these even small errors can be seen.
+  MOREAU_COLD bool collides(const Problem& problem, const Small& one) const {
+    constexpr double several = 3, far = 0.1, most_ratio = 100, most_tilt = 0.01;
+    if (problem.load.empty() || !(one.defect > far) ||
+        islands_->bodies(one.island) <= most_colliding || newton_.mass_ratio() > most_ratio)
+      return false;
+    const Operator& op = problem.delassus;
+    double load = 0, closing = 0, low = 0, high = 0, tilt = 0;
+    bool has_faces = false;
+    std::array<std::uint32_t, 2> pair{};  // of the contact before
+    for (const std::uint32_t c : islands_->contacts(one.island)) {
+      const double opening = op.free_velocity(c)[0];
+      if (!std::isfinite(opening)) continue;
+      const auto bodies = op.bodies(c);
+      for (const std::uint32_t body : bodies) load = std::max(load, double(problem.load[body]));
+      closing = std::max(closing, -opening);
+      if (bodies == pair)
+        has_faces = true;
+      else
+        low = high = opening;
+      pair = bodies;
+      low = std::min(low, opening);
+      high = std::max(high, opening);
+      tilt = std::max(tilt, high - low);
+    }
+    return closing > several * load && !(has_faces && tilt <= most_tilt * closing);
+  }
   /// Solves an island whose bodies fall together or apart from no impulses, if these are nearer to a solution than others.
   /// Every contact is then at the apex of its cone, where the derivative of the map depends on the direction. Newton's method
   /// converges slowly there from the impulses of a removed load, or from the small impulses that sweeps have left.
   /// @param defect of the others, by start_newton()
   /// @returns whether it succeeds; if not, the impulses are those of start_newton()
-  bool attempt_open(const Problem& problem, Small& one, Impulses impulses, double defect) {
+  MOREAU_COLD bool attempt_open(const Problem& problem, Small& one, Impulses impulses,
+                                double defect) {
     if (!one.falls || defect <= solved_defect) return false;
     if (start_newton(problem, {}) < defect) {
       find_cost(one);
@@ -317,7 +351,7 @@ class IslandSolver {
     return false;
   }
   /// Of an island without a warm start, after start_newton().
-  void start_by_springs(const Problem& problem, Impulses impulses) {
+  MOREAU_INLINED void start_by_springs(const Problem& problem, Impulses impulses) {
     if (!newton_.start_by_springs(saved_, even_epsilon, {tolerance_, least_epsilon, most_steps}))
       start_newton(problem, impulses);
   }
@@ -329,8 +363,9 @@ class IslandSolver {
   /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
   /// average.
   /// @param visits of an attempt, per contact
-  static bool is_drawn(const Small& one, double visits, int sweeps) {
-    if (one.is_new || one.cost <= cheap_visits) return true;
+  MOREAU_INLINED static bool is_drawn(const Small& one, double visits, int sweeps) {
+    if (one.is_new || (one.cost <= cheap_visits && !one.collides)) return true;
+    if (one.collides) visits *= 3;  // more than counted_steps, for one impact
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
     constexpr int dropped = 44;  // bits of the defect that rounding may change
     // Not std::bit_cast, which the C++ library of Debian 12's emscripten lacks.
@@ -345,7 +380,7 @@ class IslandSolver {
   /// times as much is allowed for weakly held bodies. Islands with contacts without friction are refined instead: their
   /// errors add up from step to step.
   /// @param defect of the impulses
-  bool accept(Small& one, double defect) const {
+  MOREAU_INLINED bool accept(Small& one, double defect) const {
     const double n = std::max(10.0, double(islands_->bodies(one.island)));
     const double error = 10 * n * n * newton_.mass_ratio() * defect;
     if (!(error <= tolerance_) || newton_.has_smooth_point()) return false;
@@ -355,8 +390,8 @@ class IslandSolver {
   /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
   /// @param epsilon of the first proximal step
   /// @returns whether it succeeds; if not, the impulses are those of start()
-  bool attempt_evenly(const Problem& problem, Small& one, Impulses impulses, int sweeps,
-                      double defect, double epsilon) {
+  MOREAU_COLD bool attempt_evenly(const Problem& problem, Small& one, Impulses impulses, int sweeps,
+                                  double defect, double epsilon) {
     // With springs the pressure is unique.
     constexpr bool springs = requires(const Operator op) {
       op.compliance(std::size_t());
@@ -391,7 +426,7 @@ class IslandSolver {
     return false;
   }
   /// Before the sweeps.
-  void attempt(Small& one, Impulses impulses) {
+  MOREAU_INLINED void attempt(Small& one, Impulses impulses) {
     if (one.defect > largest_defect || accept(one, one.defect)) return;
     find_cost(one);
     if (one.cost > most_visits) return;

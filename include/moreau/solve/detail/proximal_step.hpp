@@ -115,7 +115,7 @@ class ProximalStep {
   }
   /// The fastest slip of a contact that presses, with the impulses of start(), relative to the largest change of a
   /// velocity by the impulses [-]: below 1 if the bodies are about at rest to each other.
-  double slip() const {
+  MOREAU_INLINED double slip() const {
     double fastest = 0;
     for (std::size_t k = 0; k < centre_.size(); ++k) {
       if (!(centre_[k][0] > 0)) continue;

@@ -71,25 +71,19 @@ class SolutionByIslands {
   /// all islands, which they have not reached from elsewhere.
   MOREAU_COLD void lower_residual(bool sweeps_converged) {
     auto& islands = workspace_.islands;
-    if (!sweeps_converged) {
-      if (islands.have_all_contacts() && report_.unsolved_islands == 0) refine();
-      return;
-    }
-    if (islands.made_even()) {
-      islands.roll_back();
-      refine();
+    const bool refines = sweeps_converged
+                             ? islands.made_even()
+                             : islands.have_all_contacts() && report_.unsolved_islands == 0;
+    if (refines) {
+      if (sweeps_converged) islands.roll_back();
+      const int before = report_.sweeps;
+      sweep();
+      report_.sweeps += before;
+      islands.write(report_);
       // The errors after roll_back() are those before judge(): bodies can be squeezed.
-      if (report_.converged) judge(true);
-      if (report_.converged) return;
+      if (report_.converged && sweeps_converged) judge(true);
     }
-    use_sweeps();
-  }
-  /// Sweeps from the present impulses, which solve the islands to velocity_tolerance.
-  void refine() {
-    const int before = report_.sweeps;
-    sweep();
-    report_.sweeps += before;
-    workspace_.islands.write(report_);
+    if (sweeps_converged && !(refines && report_.converged)) use_sweeps();
   }
   /// After solve_once(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
   /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
@@ -148,7 +142,7 @@ class SolutionByIslands {
                         report_.unsolved_islands == 0;
     report_.capped = !report_.converged;
   }
-  void sweep() { report_ = solver_.sweep(problem_, impulses_, workspace_); }
+  MOREAU_INLINED void sweep() { report_ = solver_.sweep(problem_, impulses_, workspace_); }
 
   const Solver& solver_;
   const typename Solver::Options& options_ = solver_.options();
