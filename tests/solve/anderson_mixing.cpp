@@ -9,6 +9,8 @@
 #include <cmath>
 #include <doctest/doctest.h>
 
+#include "moreau/solve/coloured/acceleration.hpp"
+
 #include "types.hpp"
 
 using namespace moreau::detail;
@@ -59,4 +61,20 @@ TEST_CASE("mixing that starts at the fixed point stays there") {
     mixing.mix(x);
     CHECK(x == Eigen::VectorXd::Constant(3, 2.));
   }
+}
+
+TEST_CASE(
+    "Nesterov's momentum stagnates after eight checks without progress, and mixing after as many") {
+  Acceleration<double> acceleration;
+  const auto checks = [&] {
+    int count = 0;
+    while (count < 20 && !acceleration.check(1)) ++count;
+    return count;
+  };
+  CHECK(checks() == StagnationTest::checks);
+  CHECK(!acceleration.is_mixing());  // left to Nesterov's momentum: the impulses drift
+  CHECK(checks() == StagnationTest::checks - 1);
+  acceleration.start_mixing();
+  CHECK(checks() == 2 * StagnationTest::checks - 1);
+  CHECK(!acceleration.is_mixing());
 }

@@ -8,7 +8,8 @@
 //    velocities of the bodies for these impulses. Velocities are linear in r: both are extrapolated
 //    with the same beta;
 //  - Anderson's mixing where Nesterov's momentum stagnates. With friction a solution can be an unstable fixed
-//    point of the sweeps, and the iteration then cycles around it for thousands of sweeps;
+//    point of the sweeps, and the iteration then cycles around it for thousands of sweeps. Not where impulses drift
+//    (coloured/acceleration.hpp);
 //  - jumps where impulses move along a line by the same amount in each sweep, under laws with couples or an attraction
 //    (detail/line_jumps.hpp);
 //  - an active set: sweeps between two stopping tests visit only contacts with an impulse. Every
@@ -180,7 +181,7 @@ class ColouredGaussSeidel {
     double least = std::numeric_limits<double>::infinity();
     int skipped = 0, saved_at = 0;
     bool is_plain = !accelerate;  // of the sweeps that come next
-    detail::LineJumps line;
+    [[maybe_unused]] detail::LineJumps line;
     const bool always = measures_always(problem);
     while (!report.converged && report.sweeps < max_sweeps) {
       sweep_to_check(sweeps, max_sweeps, report);
@@ -199,10 +200,11 @@ class ColouredGaussSeidel {
         expected_change = report.quad_dv * aim / report.residual;
       }
       if (report.converged) break;
-      if (accelerate && !early && follow_line(line, change, problem, impulses, sweeps, report)) {
-        least = std::min(least, change);
-        continue;
-      }
+      if constexpr (HasLines<Law, typename Operator::Space>)
+        if (accelerate && !early && follow_line(line, change, problem, impulses, sweeps, report)) {
+          least = std::min(least, change);
+          continue;
+        }
       if (change < improvement * least) {
         least = change;
         saved_at = report.sweeps;
@@ -266,12 +268,11 @@ class ColouredGaussSeidel {
                                std::span<typename Operator::Vector> impulses,
                                detail::ColouredSweeps<Operator, Law>& sweeps,
                                SolveReport& report) const {
-    if constexpr (!HasLines<Law, typename Operator::Space>) return false;
     switch (line.after(change, sweeps.is_mixing())) {
       case detail::LineJumps::Next::nothing:
         return false;
       case detail::LineJumps::Next::mark:
-        sweeps.mark();
+        sweeps.mark(team_);
         return false;
       case detail::LineJumps::Next::jump:
         certify(problem, impulses, sweeps, report);

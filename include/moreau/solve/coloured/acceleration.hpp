@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The acceleration of coloured sweeps: Nesterov's momentum. If it stagnates, Anderson's mixing
-// replaces it, and if mixing stagnates, Nesterov's momentum again.
+// replaces it, and if mixing stagnates, Nesterov's momentum again. Impulses that drift, about in one direction without
+// a smaller change per sweep, are left to Nesterov's momentum: they pass where the sweeps have nearly a fixed point, and
+// mixing leads back to it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "moreau/core/list.hpp"
 #include "moreau/solve/detail/anderson_mixing.hpp"
@@ -82,15 +85,16 @@ class Acceleration {
     beta_ = 0;
     if (enabled_ && !mixing_) beta_ = static_cast<T>(nesterov_.next(squared_change()));
   }
-  /// Tests the change of a plain sweep; switches between Nesterov's momentum and mixing if it
-  /// stagnates.
-  /// @returns whether mixing starts
+  /// Tests the change of a plain sweep; ends mixing if it stagnates.
+  /// @returns whether Nesterov's momentum stagnates
   bool check(double change) {
     if (!mixing_) nesterov_.check(change);
     if (!enabled_ || !stagnation_.stagnates(change)) return false;
-    mixing_ = !mixing_;
-    return mixing_;
+    return !std::exchange(mixing_, false);
   }
+  void start_mixing() { mixing_ = true; }  ///< in place of Nesterov's momentum
+  /// Checks in a row without progress, below StagnationTest::checks.
+  int stalled_checks() const { return stagnation_.count(); }
 
  private:
   bool enabled_, mixing_ = false;

@@ -88,15 +88,7 @@ class ColouredSweeps {
   }
   /// Takes velocities of bodies from the operator that are not those of the impulses.
   void take_velocities(const Operator& op) { kernel_.take_velocities(op); }
-  /// Saves the impulses.
-  void save(const Team& team) {
-    const auto& points = kernel_.points();
-    saved_.resize(points.size() * Kernel::rows);
-    team.share_each(points.size(), 256, [&](std::size_t p) {
-      for (std::size_t d = 0; d < Kernel::rows; ++d)
-        saved_[p * Kernel::rows + d] = points[p].impulse[d];
-    });
-  }
+  void save(const Team& team) { copy_to(saved_, team); }  ///< saves the impulses
   /// Goes back to the saved impulses; the next sweep has no acceleration.
   void restore(const Team& team) {
     std::size_t i = 0;
@@ -108,12 +100,7 @@ class ColouredSweeps {
     acceleration_.restart();
   }
   bool is_mixing() const { return acceleration_.is_mixing(); }  ///< whether impulses are mixed
-  /// Keeps the impulses for jump().
-  MOREAU_COLD void mark() {
-    marked_.clear();
-    for (const auto& point : kernel_.points())
-      for (std::size_t d = 0; d < Kernel::rows; ++d) marked_.push_back(point.impulse[d]);
-  }
+  void mark(const Team& team) { copy_to(marked_, team); }       ///< keeps the impulses for jump()
   /// Moves the impulses on by a multiple of their way since mark(); the next sweep has no acceleration.
   /// @returns false, and moves nothing, if the impulses have moved by as much as they were at mark()
   MOREAU_COLD bool jump(double factor, const Team& team) {
@@ -198,10 +185,10 @@ class ColouredSweeps {
     SweepChange change = kernel_.measures();
     if (shared_) change.add_up(*shared_);
     ++mixed_sweeps_;
-    if (acceleration_.check(std::sqrt(change.dv2))) {
-      mixed_sweeps_ = 0;
-      mixing_.start(kernel_, active_.groups());
-    }
+    if (acceleration_.check(std::sqrt(change.dv2))) mix_unless_drifting();
+    const int stalled = acceleration_.stalled_checks(), half = StagnationTest::checks / 2;
+    if (stalled == half || stalled == half * 3 / 2)
+      copy_to(stalled == half ? halfway_ : later_, team);
     update_beta(all_);
     return change;
   }
@@ -216,6 +203,37 @@ class ColouredSweeps {
   void run(TimedWork kind, const Team& team, const TeamThreads::Work& sweep) {
     const bool full = kind == TimedWork::full_sweep;
     team.run_timed(kind, full ? kernel_.points().size() : active_points_, least_points, sweep);
+  }
+  /// Copies the impulses of the points.
+  MOREAU_COMPILED_ONCE void copy_to(List<typename Kernel::Values>& to, const Team& team) const {
+    const auto& points = kernel_.points();
+    to.resize(points.size() * Kernel::rows);
+    team.share_each(points.size(), 256, [&](std::size_t p) {
+      for (std::size_t d = 0; d < Kernel::rows; ++d)
+        to[p * Kernel::rows + d] = points[p].impulse[d];
+    });
+  }
+  /// Starts mixing, unless the impulses drift: of the checks without progress, the last quarter has moved them in about the
+  /// direction of the quarter before.
+  MOREAU_COLD void mix_unless_drifting() {
+    constexpr double straight = 0.9;     // cosine
+    typename Kernel::Values lanes[3]{};  // products and squares of both ways
+    std::size_t i = 0;
+    for (const auto& point : kernel_.points())
+      for (std::size_t d = 0; d < Kernel::rows; ++d, ++i) {
+        const auto before = kernel_.scaled(later_[i] - halfway_[i]),
+                   way = kernel_.scaled(point.impulse[d] - later_[i]);
+        lanes[0] += before * way;
+        lanes[1] += before * before;
+        lanes[2] += way * way;
+      }
+    double sums[3];
+    for (int k = 0; k < 3; ++k) sums[k] = double(Kernel::Lanes::sum(lanes[k]));
+    if (shared_) shared_->sum(sums);
+    if (sums[0] > straight * std::sqrt(sums[1] * sums[2])) return;
+    acceleration_.start_mixing();
+    mixed_sweeps_ = 0;
+    mixing_.start(kernel_, active_.groups());
   }
   auto settle_hub() {
     return [this](std::uint32_t k) { kernel_.settle_hub(k); };
@@ -271,7 +289,7 @@ class ColouredSweeps {
   ImpulseMixing<Kernel> mixing_;
   int mixed_sweeps_ = 0;           // since mixing started
   std::size_t active_points_ = 0;  // packs of them
-  List<typename Kernel::Values> saved_, marked_;
+  List<typename Kernel::Values> saved_, marked_, halfway_, later_;
 };
 
 }  // namespace moreau::detail

@@ -55,7 +55,8 @@ class GroupKernel {
     is_large_ = contacts_.velocities() * sizeof(BodyLanes) / Lanes::lanes > near_cache;
     changes_.assign(contacts_.groups.size(), Values{});
     hub_changes_.resize(contacts_.groups.size());
-    if (problem.delassus.has_cell()) pack_all();  // a cell asks for the points of all groups
+    if (problem.delassus.has_cell()) [[unlikely]]
+      pack_all();  // a cell asks for the points of all groups
     cell_.start(problem.delassus, contacts_);
     has_extras_ = is_large_ || cell_.moves();
     if (cell_.moves())
@@ -136,6 +137,7 @@ class GroupKernel {
 
   const List<Group>& groups() const { return contacts_.groups; }
   List<Points>& points() { return contacts_.points; }
+  const List<Points>& points() const { return contacts_.points; }
   LaneVelocities<S, Lanes>& velocity() { return velocity_; }
 
   /// Visits the active points of group k.
@@ -171,6 +173,15 @@ class GroupKernel {
   /// have changed.
   void settle_hub(std::uint32_t k) { velocity_.add(contacts_.groups[k], hub_changes_[k]); }
 
+  /// What is squared of an impulse, for sums of which only ratios count: in single precision a multiple of it, because
+  /// squares of impulses of grains of 1e-6 m or 1e4 m cannot be represented.
+  Values scaled(const Values& impulse) const {
+    if constexpr (is_fine)
+      return impulse;
+    else
+      return impulse * unit_;
+  }
+
   /// Squared change of impulses in the last visits of some groups, added up in their order.
   double squared_change(const List<std::uint32_t>& groups) const {
     Values change2{};
@@ -190,7 +201,7 @@ class GroupKernel {
     const ContactProblem<Operator, Law>* problem = nullptr;
     std::span<const Impulse> impulses{};
   };
-  MOREAU_COLD void pack_all() {
+  MOREAU_INLINED void pack_all() {
     for (std::size_t k = 0; k < contacts_.groups.size(); ++k)
       contacts_.pack(*source_.problem, source_.impulses, k);
     end_packing();
@@ -369,14 +380,6 @@ class GroupKernel {
       }
     }
     velocity_.scatter(group, a, b);
-  }
-  /// What is squared of an impulse, for sums of which only ratios count: in single precision a multiple of it, because
-  /// squares of impulses of grains of 1e-6 m or 1e4 m cannot be represented.
-  Values scaled(const Values& impulse) const {
-    if constexpr (is_fine)
-      return impulse;
-    else
-      return impulse * unit_;
   }
   void measure(SweepChange& sum, const typename Points::Block& block, const Row& change,
                const Row& impulse) const {

@@ -20,10 +20,12 @@ class StagnationTest {
     }
     return false;
   }
+  int count() const { return count_; }  ///< values in a row without progress, below `checks`
+
+  static constexpr int checks = 8;
 
  private:
   static constexpr double progress = 0.9;
-  static constexpr int checks = 8;
 
   double least_ = std::numeric_limits<double>::infinity();
   int count_ = 0;

@@ -141,9 +141,12 @@ class StepMargins {
     team.share_each(of_grain_.size(), 256,
                     [&](std::size_t k) { of_grain_[k] = bounds.of_walls(k); });
     team.share_each(near_.size(), 512, [&](std::size_t p) { near_[p] = bounds.of_pair(p); });
-    for (std::size_t p = 0; p < near_.size(); ++p)
-      for (const std::size_t k : {bounds.pairs[p].first, bounds.pairs[p].second})
-        of_grain_[k] = std::max(of_grain_[k], near_[p]);
+    for (std::size_t p = 0; p < near_.size(); ++p) {
+      const Scalar approach = near_[p];
+      Scalar &first = of_grain_[bounds.pairs[p].first], &second = of_grain_[bounds.pairs[p].second];
+      first = std::max(first, approach);
+      second = std::max(second, approach);
+    }
     // Impacts do not move a grain of prescribed motion: only the bound of the other grain counts.
     for (std::size_t k = 0; k < of_grain_.size(); ++k)
       if (bounds.is_prescribed(k)) of_grain_[k] = 0;

@@ -116,8 +116,8 @@ class CellJumps {
     for (int k = 0; k < S::dim; ++k) row[k] = turned[k];
     return row;
   }
-  MOREAU_COMPILED_ONCE static void turn_velocity(const Twist& velocity, const Matrix& rate,
-                                                 Scalar step, Twist& free) {
+  MOREAU_INLINED static void turn_velocity(const Twist& velocity, const Matrix& rate, Scalar step,
+                                           Twist& free) {
     const Vector p = linear<S>(velocity);
     linear<S>(free) -= step * product(rate, p);
   }
