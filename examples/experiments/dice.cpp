@@ -12,14 +12,15 @@
 //   walled    poured, but between four side walls in place of the periodic axes, with the same friction;
 //   slow      sediment, but held at 0.03 m/s, which lifts a die by a two-hundredth of its size;
 //   rounded   sediment of dice whose edges are rounded with a tenth of their size, at equal volume;
+//   slow rounded  both;
 //   dense     the floor shakes the poured ones along the vertical for 4 s, with 25 Hz and an acceleration of 4 g at first,
 //             which falls linearly to 0;
 //   long      the same for 16 s;
 //   smooth    poured and shaken for 4 s like dense, the edges rounded like those of rounded.
 // The loosest packing was published for dice that were fluidized, the densest one for dice that were vibrated.
 // The solid fraction is that of a slab from 2.5 sizes above the floor to 2.5 sizes below the highest centre. Friction
-// between dice is not in the abstract: it is varied. Damped, walled, slow, rounded, long and smooth change one thing each: controls.
-// All but smooth have the first friction only. Friction 0 is a limit: poured and shaken dice only.
+// between dice is not in the abstract: it is varied. The other kinds are controls.
+// Friction 0 is a limit: poured and shaken dice only.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -128,7 +129,16 @@ constexpr double rest = 0.3, terminal = 0.1,
                  slow_terminal = 0.03;  // [s], of the sediment [m/s]
 
 /// How the dice arrive.
-enum class Arrival { poured, sediment, damped, walled, slow, rounded, poured_rounded };
+enum class Arrival {
+  poured,
+  sediment,
+  damped,
+  walled,
+  slow,
+  rounded,
+  slow_rounded,
+  poured_rounded
+};
 
 struct Sample {
   int faces;
@@ -220,7 +230,8 @@ Numbers loose(Run& run, const Sample& sample, Arrival arrival, const Shape& shap
     }
   };
   const bool slowly = arrival != Arrival::poured && arrival != Arrival::poured_rounded && !walled;
-  const double velocity = arrival == Arrival::slow ? slow_terminal : terminal;
+  const double velocity =
+      arrival == Arrival::slow || arrival == Arrival::slow_rounded ? slow_terminal : terminal;
   // The time in which the highest die falls to the floor, and rest.
   const double fall = slowly ? top / velocity : std::sqrt(2 * top / gravity);
   Drag drag;
@@ -267,27 +278,41 @@ struct Kind {
   const char* key;     ///< in the name of the run
   const char* figure;  ///< in the table
   Arrival arrival;
-  double shaking;         ///< after the arrival [s]
-  double h;               ///< step [s]
-  bool compared;          ///< the published value is of this procedure
-  std::size_t frictions;  ///< how many of the list
+  double shaking;  ///< after the arrival [s]
+  double h;        ///< step [s]
+  bool compared;   ///< the published value is of this procedure
+  Numbers frictions;
 
   bool is_rounded() const {
-    return arrival == Arrival::rounded || arrival == Arrival::poured_rounded;
+    return arrival == Arrival::rounded || arrival == Arrival::slow_rounded ||
+           arrival == Arrival::poured_rounded;
   }
 };
 const std::vector<Kind>& all_kinds() {  // the short runs first
   static const std::vector<Kind> kinds{
-      {"poured", "poured", Arrival::poured, 0, step, false, 3},
-      {"poured rounded", "poured, edges rounded", Arrival::poured_rounded, 0, step, false, 3},
-      {"sediment", "loosest, as sediment", Arrival::sediment, 0, slow_step, true, 2},
-      {"damped", "sediment, spin resisted", Arrival::damped, 0, slow_step, false, 1},
-      {"walled", "poured between walls", Arrival::walled, 0, step, false, 1},
-      {"rounded", "sediment, edges rounded", Arrival::rounded, 0, slow_step, false, 1},
-      {"slow", "sediment at 0.03 m/s", Arrival::slow, 0, slow_step, false, 1},
-      {"dense", "densest", Arrival::poured, 4, step, true, 3},
-      {"smooth", "densest, edges rounded", Arrival::poured_rounded, 4, step, false, 3},
-      {"long", "densest, shaken for 16 s", Arrival::poured, 16, step, false, 1}};
+      {"poured", "poured", Arrival::poured, 0, step, false, {0.5, 0.2, 0, 1}},
+      {"poured rounded",
+       "poured, edges rounded",
+       Arrival::poured_rounded,
+       0,
+       step,
+       false,
+       {0.5, 0.2, 0}},
+      {"sediment", "loosest, as sediment", Arrival::sediment, 0, slow_step, true, {0.5, 0.2, 1}},
+      {"damped", "sediment, spin resisted", Arrival::damped, 0, slow_step, false, {0.5}},
+      {"walled", "poured between walls", Arrival::walled, 0, step, false, {0.5}},
+      {"rounded", "sediment, edges rounded", Arrival::rounded, 0, slow_step, false, {0.5, 1}},
+      {"slow", "sediment at 0.03 m/s", Arrival::slow, 0, slow_step, false, {0.5}},
+      {"slow rounded",
+       "sediment at 0.03 m/s, edges rounded",
+       Arrival::slow_rounded,
+       0,
+       slow_step,
+       false,
+       {0.5, 1}},
+      {"dense", "densest", Arrival::poured, 4, step, true, {0.5, 0.2, 0, 1}},
+      {"smooth", "densest, edges rounded", Arrival::poured_rounded, 4, step, false, {0.5, 0.2, 0}},
+      {"long", "densest, shaken for 16 s", Arrival::poured, 16, step, false, {0.5, 0.2}}};
   return kinds;
 }
 
@@ -334,12 +359,13 @@ void report(Session& session, const std::vector<Die>& kinds, const Numbers& fric
       rows.push_back({double(one.faces), friction, mean("sediment").value, one.loose,
                       mean("dense").value, one.dense, mean("poured").value, mean("damped").value,
                       mean("walled").value, mean("slow").value, mean("rounded").value,
-                      mean("poured rounded").value, mean("smooth").value, mean("long").value});
+                      mean("poured rounded").value, mean("smooth").value, mean("long").value,
+                      mean("slow rounded").value});
     }
   session.curve(
       "dice",
       {"faces", "friction", "sediment", "published loose", "dense", "published dense", "poured",
-       "damped", "walled", "slow", "rounded", "poured rounded", "smooth", "long"},
+       "damped", "walled", "slow", "rounded", "poured rounded", "smooth", "long", "slow rounded"},
       rows);
 }
 
@@ -355,14 +381,13 @@ void dice(Session& session) {
                                {8, "octahedra", 0.52, 0.64},
                                {12, "dodecahedra", 0.51, 0.63},
                                {20, "icosahedra", 0.50, 0.59}};
-  const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2, 0};
+  const Numbers frictions = quick ? Numbers{0.4} : Numbers{0.5, 0.2, 0, 1};
   All all;
   bool paused = false;
   const auto run = [&](const Kind& kind, std::uint64_t seed) {
-    for (std::size_t f = 0; f < std::min(kind.frictions, frictions.size()); ++f)
+    for (const double friction : quick ? frictions : kind.frictions)
       for (const Die& one : kinds) {
         if (quick && one.faces != 6) continue;
-        const double friction = frictions[f];
         const Sample sample{one.faces, count, across, friction, quick ? 0.2 : kind.shaking, seed};
         const std::string name = std::string(one.name) + " friction " + std::to_string(friction) +
                                  " count " + std::to_string(count) + " seed " +

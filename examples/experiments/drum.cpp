@@ -100,8 +100,9 @@ Extremum extremum_near(const Numbers& counts, double interval, double time, doub
 }
 
 /// Rows of the comparison with the published counts, every `interval`.
+/// @param order of the balls, for the names of the rows
 void compare(Session& session, Row row, Numbers counts, double interval,
-             const std::vector<Numbers>& published) {
+             const std::vector<Numbers>& published, const std::string& order) {
   counts.resize(std::min(counts.size(), published.size()));  // the published ones end at 4.9 s
   Numbers liggghts, musen;
   for (std::size_t k = 1; k < counts.size(); ++k) {  // LIGGGHTS' first sample is at 0.1 s
@@ -118,7 +119,7 @@ void compare(Session& session, Row row, Numbers counts, double interval,
   const std::string until =
       text("M1 in the quadrant until %.1f s: ", double(counts.size() - 1) * interval);
   for (const auto& [name, theirs] : {std::pair{"LIGGGHTS", &liggghts}, {"MUSEN", &musen}}) {
-    row.figure = until + "root mean square difference to " + name;
+    row.figure = until + "root mean square difference to " + name + order;
     row.published = text("LIGGGHTS to MUSEN: %.0f", between);
     row.measured = difference(own, *theirs).mean_square;
     row.verdict = row.measured <= 2 * between ? "yes" : "no";
@@ -137,12 +138,12 @@ void compare(Session& session, Row row, Numbers counts, double interval,
     const Extremum theirs = extremum_near(all_liggghts, interval, turn.time, 0.3, turn.maximum);
     const Extremum ours = extremum_near(counts, interval, turn.time, 0.3, turn.maximum);
     const std::string kind = turn.maximum ? "maximum" : "minimum";
-    row.figure = "time of the " + kind + text(" near %.1f s [s]", turn.time);
+    row.figure = "time of the " + kind + text(" near %.1f s [s]", turn.time) + order;
     row.published = text("%.2f (LIGGGHTS)", theirs.time);
     row.measured = ours.time;
     row.verdict = std::abs(ours.time - theirs.time) <= 0.05 ? "yes" : "no";
     session.row(row);
-    row.figure = "number at this " + kind;
+    row.figure = "number at this " + kind + order;
     row.published = text("%.0f (LIGGGHTS)", theirs.value);
     row.measured = ours.value;
     // Within 10 % of the swing from the extremum before: a minimum of 2 has no 10 % of its own.
@@ -166,11 +167,11 @@ void run(Session& session, const Case& c, double interval, const std::vector<Num
   const bool whole = c.depth >= half_depth;
   const std::string part =
       whole ? "whole drum" : "slice of " + std::to_string(int(std::lround(2000 * c.depth))) + " mm";
-  const std::string key = c.numerics.text() + (whole ? "" : ' ' + part) +
-                          (c.order == Order::spatial    ? ""
-                           : c.order == Order::reversed ? ", reversed order"
-                                                        : ", order of the file");
-  if (!session.wants(part) && !session.wants(key)) return;
+  const std::string order = c.order == Order::spatial    ? ""
+                            : c.order == Order::reversed ? ", reversed order"
+                                                         : ", order of the file";
+  const std::string key = c.numerics.text() + (whole ? "" : ' ' + part) + order;
+  if (!session.wants(part + order) && !session.wants(key)) return;
   Row row;
   row.law = "SignoriniCoulomb";
   row.step = c.numerics.step;
@@ -182,7 +183,7 @@ void run(Session& session, const Case& c, double interval, const std::vector<Num
     for (std::size_t k = 0; k < counts.size(); ++k)
       rows.push_back({double(k) * interval, counts[k]});
     session.curve(c.curve, {"t [s]", "moreau"}, rows);
-    if (whole && counts.size() > 3) compare(session, row, counts, interval, published);
+    if (whole && counts.size() > 3) compare(session, row, counts, interval, published, order);
   };
   Result result;
   try {
@@ -207,7 +208,7 @@ void run(Session& session, const Case& c, double interval, const std::vector<Num
   row.grains = std::size_t(v[n + 5]);
   row.seconds = result.seconds;
   row.published = "–";
-  const std::string of = whole ? "" : ", " + key;
+  const std::string of = whole ? order : ", " + key;
   row.figure = "steps not solved, share" + of;
   row.measured = v[n + 1] / v[n];
   session.row(row);
@@ -301,6 +302,7 @@ void drum(Session& session) {
   run(session, {half, 5, slice, "drum_slice_half_ms_reversed", Order::reversed}, often, published);
   run(session, {quarter, 5, slice, "drum_slice_quarter_ms"}, often, published);
   run(session, {numerics, 5, half_depth, "drum"}, interval, published);
+  run(session, {numerics, 5, half_depth, "drum_reversed", Order::reversed}, interval, published);
 }
 
 }  // namespace experiments

@@ -14,14 +14,15 @@ if (has("drum")) {
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/drum_zone2_M1.csv" using 1:2 skip 1 with lines lw 2 lc rgb other title "LIGGGHTS", \
        data . "/drum_zone2_M1.csv" using 1:3 skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN", \
-       file("drum") using 1:2 skip 1 with points pt 6 lc rgb own title "moreau, rigid"
+       file("drum") using 1:2 skip 1 with points pt 6 lc rgb own title "moreau, rigid", \
+       (has("drum_reversed") ? file("drum_reversed") : "/dev/null") using 1:2 skip 1 with points pt 1 lc rgb last title has("drum_reversed") ? "the same, reversed order" : ""
 }
 do for [n in "25 50 100"] {
   name = sprintf("impact_%sk", n); part = name . "_so_far"
   loose = name . (n eq "25" ? "_twice_the_step" : "") . "_loose"; loose_part = loose . "_so_far"
   if (has(name) || has(part) || has(loose) || has(loose_part)) {
     set output folder . "/" . name . ".png"
-    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step %s µs, tolerance 1e-3", n, has(name) && n ne "100" ? "50" : "100")
+    set title sprintf("Impact: height of the steel ball, bed of %s,000 balls, step %s µs, tolerance 1e-3", n, n eq "25" ? "50" : "100")
     set xlabel "t [ms]"; set ylabel "z [mm]"; set key top center
     csv(name) = has(name) ? file(name) : "/dev/null"
     count = has(name) ? int(system(sprintf("head -1 '%s' | tr ',' '\n' | wc -l", file(name)))) : 2
@@ -49,7 +50,7 @@ if (has("squeeze_10000_SignoriniCoulomb_500")) {
 }
 if (has("silo_large_M1_100k") || has("silo_large_M1_30k") || has("silo_large_M2_30k")) {
   set output folder . "/silo_count.png"
-  set title "Silo: balls below the orifice, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:1.5]
+  set title "Silo: balls below the orifice, d = 4 mm, step 0.5 ms"; set key top left; set xrange [0:has("silo_large_M1_100k") ? 4.5 : 1.5]
   set xlabel "t [s]"; set ylabel "number of balls"
   plot data . "/silo_large_M1.csv" using 1:(100000 - $2) skip 1 with lines lw 2 lc rgb other title "LIGGGHTS, M1, 100,000, large orifice", \
        data . "/silo_large_M1.csv" using 1:(100000 - $3) skip 1 with lines lw 2 dt 2 lc rgb third title "MUSEN, M1, 100,000, large orifice", \
