@@ -107,11 +107,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MOREAU_VERSION_STRING);
   app.add_flag("--list", only_list, "list the experiments with their cost");
   app.add_option("--only", options.only, "run only these")->check(CLI::IsMember(names));
-  app.add_option(
-      "--part", options.part,
-      "of silo, drum, impact, squeeze, dice, heap and columns: only the runs with this in "
-      "their names, such as 'small orifice, M1', 'whole drum', '25000 balls, bed 2' or "
-      "'cubes'");
+  app.add_option("--part", options.part,
+                 "of silo, drum, impact, dice, heap and columns: only the runs with this in their "
+                 "names, such as "
+                 "'small orifice, M1', 'whole drum', '25000 balls' or 'cubes'");
   app.add_option("--output", options.output, "folder for the results; runs that it holds are kept")
       ->capture_default_str();
   app.add_flag("--quick", options.quick, "smaller versions of all: about two minutes");

@@ -50,8 +50,8 @@ double cpu_seconds();
 struct Options {
   std::filesystem::path output = "experiments-output";
   std::vector<std::string> only;
-  /// Only the runs of silo, drum, impact, squeeze, dice, heap and columns whose names contain this.
-  std::string part;
+  std::string
+      part;  ///< only the runs of silo, drum, impact, dice, heap and columns whose names contain this
   bool quick = false;
   double hold = std::numeric_limits<double>::infinity();  ///< stop after this wall-clock time [s]
   int threads = 1;                                        ///< of the long runs
@@ -96,7 +96,7 @@ class Session {
 
   bool quick() const { return options_.quick; }
   const Options& options() const { return options_; }
-  /// Whether a run is one of those that are asked for, see Options::part.
+  /// Whether a run of silo, drum, impact, dice, heap or columns is one of those that are asked for.
   bool wants(const std::string& name) const {
     return name.find(options_.part) != std::string::npos;
   }

@@ -248,6 +248,7 @@ void squeeze(Session& session) {
   if (session.wants("25000 balls")) {
     const Bed wide = bed_of(session, "25000 balls", {}, 25000, 1);
     run<Rigid>(session, wide, "SignoriniCoulomb", rigid);
+    run<Springs>(session, wide, "Compliant", short_steps);
     run<Hertz>(session, wide, "HertzMindlin", hertz);
   }
 }
