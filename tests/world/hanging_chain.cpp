@@ -11,6 +11,9 @@
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 #include "moreau/shape/ball.hpp"
+#include "moreau/shape/polygon.hpp"
+#include "moreau/shape/polyhedron.hpp"
+#include "moreau/shape/regular_shape.hpp"
 #include "moreau/world/simulation.hpp"
 
 using namespace moreau;
@@ -142,4 +145,34 @@ TEST_CASE_TEMPLATE("attracting grains that walls squeeze: no step is solved, and
       CHECK(claimed == 0);
       CHECK(fastest < T(1));
     }
+}
+
+TEST_CASE_TEMPLATE(
+    "the adhesion is that of a contact point: a face holds as many times as it has points", ShapeT,
+    Disk<>, Ball<>, Polygon<>, Polyhedron<>, Polygon<float>, Ball<float>) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Law = Cohesive<SignoriniCoulomb<T>>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  constexpr bool is_round = !Polytope<ShapeT>;
+  const ShapeT shape = [] {
+    if constexpr (is_round)
+      return ShapeT(T(size / 2));
+    else
+      return cuboid<ShapeT>(Vector(Vector::Constant(T(size / 2))));
+  }();
+  const double weight = double(shape.volume()) * 2700 * gravity;
+  const int points = is_round ? 1 : S::dim == 2 ? 2 : 4;
+  for (const bool holds : {true, false}) {
+    const double adhesion = (holds ? 1.05 : 0.95) * weight / points;
+    Simulation<ShapeT, Law> world(T(size), Law(SignoriniCoulomb<T>(T(0.5)), T(adhesion)));
+    const BodyId grain =
+        world.add_grain(world.add_shape(shape), Pose<S>(Vector(T(-size / 2) * up)), T(2700));
+    world.add_wall(-up, Vector::Zero());
+    world.set_gravity(T(-gravity) * up);
+    for (int k = 0; k < 200; ++k) world.step(T(h));
+    const double sunk = -size / 2 - double(world.pose(grain).position[S::dim - 1]);
+    CHECK((sunk < 1e-4 * size) == holds);
+  }
 }

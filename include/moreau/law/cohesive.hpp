@@ -42,7 +42,8 @@ class Cohesive : public Law {
 
  public:
   /// @param law      the law without adhesion
-  /// @param adhesion gamma >= 0, per contact point [N]
+  /// @param adhesion gamma >= 0, per contact point [N]: an edge (in the plane) that lies on a face holds 2 gamma, the face
+  ///                 of a cube 4 gamma, a ball one. LinearCohesion (bridges.hpp) is per pair of bodies
   /// @param range    largest gap with adhesion, > 0 [m]. Contacts are detected up to it, if it is above the margin
   ///                 (Tolerances::margin). The default is infinite: every contact attracts, up to the margin
   /// @throws std::invalid_argument outside these ranges
