@@ -177,6 +177,29 @@ TEST_CASE("check: an overlap of an impact asks for a shorter step, not for other
   CHECK(arose);
 }
 
+TEST_CASE_TEMPLATE(
+    "check: an overlap of the first step by a floor that moves was not there at the start", ShapeT,
+    MOREAU_TYPES((Disk<>, Polyhedron<>), (Polygon<>, Ball<float>))) {
+  using S = SpaceOf<ShapeT>;
+  using T = typename S::Scalar;
+  using Vector = typename S::Vector;
+  using Coulomb = SignoriniCoulomb<T>;
+  const Vector up = Vector::Unit(S::dim - 1);
+  for (const T depth : {T(0), T(0.05)}) {  // of the grain size, at the start
+    Simulation<ShapeT, Coulomb> world(T(0.02), Coulomb(T(0.5)));
+    world.add_grain(world.add_shape(regular_shape<ShapeT>(T(0.02))),
+                    Pose<S>(Vector((T(0.5) - depth) * T(0.02) * up)), T(2700));
+    world.add_wall(up, Vector::Zero());
+    world.set_gravity(T(-9.81) * up);
+    if (depth == 0) world.set_velocity(BodyId(1), T(0.6) * up);
+    const auto all = check(world, world.step(T(1e-3)));
+    if (ShapeT(regular_shape<ShapeT>(T(0.02))).bounding_box({}).lower[S::dim - 1] < T(-0.0099)) {
+      CHECK(one_contains(all, "it arose in this step") == (depth == 0));
+      CHECK(one_contains(all, "at the start") == (depth > 0));
+    }
+  }
+}
+
 TEST_CASE("check: an overlap that is older than the step") {
   World world = cube(0.02, 0.0);
   const BodyId grain = world.grain(0);

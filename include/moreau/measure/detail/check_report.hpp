@@ -94,8 +94,8 @@ struct OverlapScene {
 };
 
 /// Names the deepest overlap, with the advice for its cause:
-///   - in the first step it was there at the start;
-///   - if two surfaces that approach move as far in the step, it arose in the step: an impact;
+///   - if two surfaces that approach move as far in the step, it arose in the step: an impact, or a wall that begins to move;
+///   - else, in the first step, it was there at the start;
 ///   - else it arose before, in a step that was too long, with a body that was added, by a body of prescribed motion that
 ///     presses, of a grain that came through a mesh wall from behind, or by compliance, as is common under a regularized law.
 [[gnu::cold]] inline void check_overlap(Findings& found, const StepReport& report, double size,
@@ -105,17 +105,17 @@ struct OverlapScene {
   const std::initializer_list<double> numbers = {
       report.max_overlap, double(report.deepest_a), double(report.deepest_b),
       report.max_overlap / size, scene.presses < 0 ? scene.one_sided : scene.presses};
-  if (scene.is_first)
-    return found.say(
-        "overlap of % m of the bodies % and % at the start, % of the grain size. Add grains that "
-        "do not overlap",
-        numbers);
   if (report.max_overlap <= motion)
     return found.say(
         "overlap of % m of the bodies % and %, % of the grain size: it arose in this step, in "
         "which surfaces approach by % m. Use a shorter step: half the step halves the overlap",
         {report.max_overlap, double(report.deepest_a), double(report.deepest_b),
          report.max_overlap / size, motion});
+  if (scene.is_first)
+    return found.say(
+        "overlap of % m of the bodies % and % at the start, % of the grain size. Add grains that "
+        "do not overlap",
+        numbers);
   const char* text = scene.older;
   if (text == older_overlap && scene.presses >= 0)
     text = overlap_by_drive;
