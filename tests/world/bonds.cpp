@@ -417,6 +417,25 @@ TEST_CASE_TEMPLATE(
   CHECK(says());
 }
 
+TEST_CASE_TEMPLATE("bond: check() tells strengths that forces drown in from bonds without a load",
+                   X, MOREAU_TYPES((Case<Globe, Rigid>), (Case<Circle, Rigid>))) {
+  using World = Row<typename X::Shape, typename X::LawOf>;
+  using S = typename World::S;
+  for (const double scale : {1.0, 1e20}) {
+    World row(3, 0, 1000, scale);
+    row.world.set_gravity(-9.81 * S::Vector::Unit(S::dim - 1));
+    StepReport report = row.world.step(1e-4);
+    if (scale == 1) report.bond_load = 1e-16, report.bond_error = 1;  // as in free fall
+    CHECK(report.bond_error == 1);
+    const auto sentences = moreau::check(row.world, report);
+    const bool says =
+        std::any_of(sentences.begin(), sentences.end(), [](const std::string& sentence) {
+          return sentence.find("bonds bear") != std::string::npos;
+        });
+    CHECK(says == (scale > 1));
+  }
+}
+
 TEST_CASE_TEMPLATE("bond: a bonded pair turns freely under the tension of its motion", X,
                    BOND_TYPES) {
   using World = Row<typename X::Shape, typename X::LawOf>;
