@@ -175,7 +175,7 @@ class EnergyBalance {
   std::vector<typename S::Angular> spins_;
   List<BodyId> ids_;
   double kinetic_ = 0, start_ = 0;
-  std::vector<Vector> inverse_masses_;  // of bodies that move, else < 0
+  std::vector<Vector> inverse_masses_;  // of bodies that move, see Bodies [1/kg]; of others < 0
 };
 
 // Outside of the class, so that moreau::instances has them compiled.
@@ -253,7 +253,7 @@ void EnergyBalance<S>::remember(const Bodies<S>& bodies) {
   positions_.resize(bodies.size());
   spins_.resize(bodies.size());
   ids_ = bodies.id;
-  inverse_masses_ = {bodies.inverse_mass.begin(), bodies.inverse_mass.end()};
+  inverse_masses_.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   kinetic_ = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     positions_[i] = bodies.pose[i].position;
