@@ -75,6 +75,7 @@ if(WAY STREQUAL "mistakes")
   expect("there is no component Picture, but instances" "${begin}find_package(moreau 0.2 REQUIRED COMPONENTS Picture)")
   expect("space_coulomb,plane_rolling is none of"
          "${begin}set(MOREAU_INSTANCES space_coulomb,plane_rolling)\nfind_package(moreau 0.2 REQUIRED)")
+  expect("the package is moreau, in small letters" "${begin}set(Moreau_DIR ${BUILD})\nfind_package(Moreau 0.2 REQUIRED)")
   set(subdirectory "add_subdirectory(${LIBRARY} moreau)\n")
   expect("moreau is there already" "${begin}find_package(moreau 0.2 REQUIRED)\n${subdirectory}")
   expect("moreau::picture is left out: it needs find_package(PNG) before moreau" "${begin}${subdirectory}")
