@@ -117,6 +117,7 @@ if (has("dice")) {
        of(7, "0.2") using ($1 - 0.15):2 with points pt 2 ps 1.5 lc rgb own notitle, \
        of(5, "0") using ($1 - 0.3):2 with points pt 11 ps 1.5 lc rgb third title "moreau, friction 0", \
        of(7, "0") using ($1 - 0.3):2 with points pt 2 ps 1.5 lc rgb third notitle, \
-       of(11, "0.5") using 1:2 with points pt 12 ps 1.8 lw 2 lc rgb "black" title "sediment with rounded edges, friction 0.5"
+       of(11, "0.5") using 1:2 with points pt 12 ps 1.8 lw 2 lc rgb "black" title "rounded edges, sediment, friction 0.5", \
+       of(13, "0.2") using 1:2 with points pt 13 ps 1.8 lc rgb "black" title "rounded edges, friction 0.2"
   set key top right; set autoscale
 }
