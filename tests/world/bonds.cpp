@@ -862,6 +862,25 @@ TEST_CASE("bond: snapshots, removed grains, walls, periodic cells, refusals") {
   cell.step(1e-4);
   CHECK(cell.bonds().empty());
 
+  // The same pair in the vectors of set_cell(): another lattice would stretch the bond, the same one does not.
+  Simulation<Circle, Rigid> lattice(2 * radius, Materials<Rigid>(1, Make<Rigid>::law()));
+  const ShapeId same = lattice.add_shape(Circle(radius));
+  const BodyId one = lattice.add_grain(same, Pose<Space<2>>({0, 0}), 1000),
+               two = lattice.add_grain(same, Pose<Space<2>>({6 * radius, 0}), 1000);
+  const Space<2>::Matrix square = 8 * radius * Space<2>::Matrix::Identity();
+  lattice.set_cell(square);
+  lattice.bond(one, two);
+  CHECK_THROWS_WITH(
+      lattice.set_cell(2 * square),
+      "Simulation::set_cell: vectors = (0.16, 0, 0, 0.16) must be those before: a bond "
+      "reaches across them, and would be stretched by the change");
+  Space<2>::Matrix oblique = square;
+  oblique(0, 1) = 8 * radius;
+  lattice.set_cell(oblique);
+  for (int k = 0; k < 20; ++k) lattice.step(1e-4);
+  CHECK(lattice.bonds().size() == 1);
+  CHECK(agree(double(lattice.pose(two).position[0]), 6 * radius, 1e-9));
+
   // A ring across the boundary, whose force is not determined, and a row between two walls under a load across it.
   Simulation<Circle, Rigid> ring(2 * radius, Materials<Rigid>(1, Make<Rigid>::law()));
   ring.set_periodic(0, -radius, 5 * radius);

@@ -351,6 +351,10 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
   control = {};
   control.rate = -20 * unit;
   small.control_cell(control);
+  const Vector before = small.pose(small.grain(0)).position;
+  refuses([&] { small.step(0.1); },
+          "Simulation::step: step x rate of the cell = 2.82842712 must be below 1");
+  CHECK(small.pose(small.grain(0)).position == before);
   const auto crush = [&] {
     for (int k = 0; k < 1000; ++k) small.step(h);
   };

@@ -5,10 +5,12 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 
 #include "moreau/core/compiled_once.hpp"
+#include "moreau/core/error.hpp"
 #include "moreau/core/periodic_cell.hpp"
 #include "moreau/core/pose.hpp"
 #include "moreau/core/serialize.hpp"
@@ -51,6 +53,13 @@ class CellMotion {
   /// Whether the cell deforms or can deform by its stress.
   MOREAU_COLD bool is_active() const { return !rate_.isZero(0) || !control_.mass.isZero(0); }
 
+  /// For Simulation: refuses a step in which the cell could turn inside out, before anything has changed.
+  MOREAU_INLINED void require_step(Scalar step) const {
+    Scalar square = 0;
+    for (int k = 0; k < rate_.size(); ++k) square += rate_(k) * rate_(k);
+    const Scalar strain = step * std::sqrt(square);
+    require(strain < 1, "Simulation::step", "step x rate of the cell", strain, "must be below 1");
+  }
   /// For Simulation: sets the control. Components that keep a mass keep their rate.
   void set_control(const CellControl<S>& control) {
     for (int k = 0; k < rate_.size(); ++k)

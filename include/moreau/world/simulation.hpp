@@ -194,8 +194,9 @@ class Simulation : public BodyControl<ShapeT> {
   /// vectors of the same lattice: read cell().vectors() again after this call and after each step.
   /// @param vectors of the cell as columns, world axes [m]; with a positive determinant
   /// @param lower   corner of the cell, world axes [m]; it stays where it is
-  /// @throws std::invalid_argument for vectors that are not finite or without volume, a simulation with walls, or a
-  ///         cell whose height is not more than two of the widest grain with margin and skins (core/periodic_cell.hpp)
+  /// @throws std::invalid_argument for vectors that are not finite or without volume, a simulation with walls, a cell whose
+  ///         height is not more than two of the widest grain with margin and skins (core/periodic_cell.hpp), or a bond
+  ///         across vectors that change
   void set_cell(const Matrix& vectors,
                 const VectorArgument<S>& lower = Vector(Vector::Zero())) requires
       SetValuedLaw<Law, SpaceOf<ShapeT>>;
@@ -321,8 +322,8 @@ class Simulation : public BodyControl<ShapeT> {
 
   /// Advances the time by `step` [s], > 0.
   /// @returns results of the step, and how well the contact problem was solved
-  /// @throws std::invalid_argument for a step that is not positive or not finite, or a deep overlap of
-  ///         a body that was placed since the last step, see allow_overlaps(); nothing has moved then
+  /// @throws std::invalid_argument for a step that is not positive or not finite, a cell whose rate x step is 1 or more, or
+  ///         a deep overlap of a body that was placed since the last step, see allow_overlaps(); nothing has moved then
   /// @throws std::invalid_argument if a cell that deforms has become too small for the grains
   /// @throws std::runtime_error naming a body with a velocity or position that is not finite. In these two
   ///         cases the step is half made: continue from a snapshot

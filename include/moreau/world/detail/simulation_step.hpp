@@ -24,6 +24,8 @@ namespace moreau {
 template <GrainShape ShapeT, class Law, class Integrator, class Broad, class Solver>
 StepReport Simulation<ShapeT, Law, Integrator, Broad, Solver>::step(Scalar step) {
   require_positive(step, "Simulation::step", "step");
+  if constexpr (set_valued)
+    if (cell().is_lattice()) cell_motion_.require_step(step);
   StepReport report;
   detail::StepContext<S, Law> context{
       assembly_.bodies(), gravity_,    materials_, previous_,

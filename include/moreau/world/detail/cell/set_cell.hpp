@@ -2,6 +2,7 @@
 // The functions of Simulation that set a periodic cell and how it deforms.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "moreau/core/error.hpp"
@@ -46,6 +47,16 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_cell(
   PeriodicCell<S> cell;
   cell.set_vectors(vectors, lower, self);
   cell.reduce();  // an oblique cell may have more room
+  if constexpr (bonding)
+    for (Bond<S> bond : bonds()) {
+      detail::count_cells(bond, bodies(), detector_.cell());
+      const Vector before = detector_.cell().shift(bond.cells);
+      detail::count_cells(bond, bodies(), cell);
+      const Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon() * cell.vectors().norm();
+      require(
+          (cell.shift(bond.cells) - before).norm() <= rounding, self, "vectors", vectors,
+          "must be those before: a bond reaches across them, and would be stretched by the change");
+    }
   detector_.place_walls(assembly_.bodies().pose);
   detector_.set_cell(cell, lengths(), self);
   cell_motion_ = {};
