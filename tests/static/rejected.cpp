@@ -421,6 +421,31 @@ void use(const Law& law) {
 }
 #endif  // bridges_of_another_scalar
 
+#ifdef law_in_place_of_a_bridge
+// The law of the push before its bridge.
+// expect: Bridged<Bridge, Law>: Bridge must be CapillaryBridge, LinearCohesion or a class with their functions
+// and no other error
+#include "moreau/law/bridges.hpp"
+
+using Water = moreau::CapillaryBridge<>;
+using Coulomb = moreau::SignoriniCoulomb<>;
+using Wrong = moreau::Bridged<Coulomb, Water>;
+using Law = EITHER(Wrong, moreau::Bridged<Water>);
+void use(const Law& law) {
+  (void)sizeof(law);
+}
+#endif  // law_in_place_of_a_bridge
+
+#ifdef volume_in_place_of_a_bridge
+// The volume of the liquid in place of a bridge.
+// expect: Bridged<Bridge, Law>: Bridge must be CapillaryBridge, LinearCohesion or a class with their functions
+// and no other error
+#include "moreau/law/bridges.hpp"
+
+using Bridge = EITHER(double, moreau::CapillaryBridge<>);
+const moreau::Bridged<Bridge> law(Bridge(1e-9));
+#endif  // volume_in_place_of_a_bridge
+
 #ifdef cohesion_of_another_scalar
 // An attraction in single precision of a law in double precision.
 // expect: Cohesive<Law>: Law gives no impulses \(velocity_offset\) in the scalar of Cohesive

@@ -107,19 +107,47 @@ class LinearCohesion {
   T adhesion_ = 0, range_ = 1;
 };
 
+namespace detail {
+
+/// Whether a class has what Bridged asks of a bridge. Not a concept: the compiler would give its reasons beside the sentence.
+template <class B>
+inline constexpr bool gives_bridge_force = requires(const B& bridge, typename B::Scalar x) {
+  { bridge.rupture_distance() } -> std::convertible_to<typename B::Scalar>;
+  { bridge.force(x, x) } -> std::convertible_to<typename B::Scalar>;
+};
+/// Scalar of a bridge; of anything else, which Bridged refuses, double.
+template <class B>
+struct ScalarOfBridge {
+  using type = double;
+};
+template <class B>
+requires requires {
+  typename B::Scalar;
+}
+struct ScalarOfBridge<B> {
+  using type = typename B::Scalar;
+};
+
+}  // namespace detail
+
 /// A law whose bodies attract each other from their first touch to the rupture of a bridge; the head of this file has
 /// its equations. Model of BridgingLaw; rolling, static friction and lanes of the law stay as they are.
 /// @tparam Bridge CapillaryBridge or LinearCohesion, or a class with their functions rupture_distance() and force()
 /// @tparam Law    set-valued law of the push
-template <class Bridge, class Law = SignoriniCoulomb<typename Bridge::Scalar>>
+template <class Bridge, class Law = SignoriniCoulomb<typename detail::ScalarOfBridge<Bridge>::type>>
 class Bridged : public Law {
+  static_assert(detail::gives_bridge_force<Bridge>,
+                "Bridged<Bridge, Law>: Bridge must be CapillaryBridge, LinearCohesion or a class "
+                "with their functions rupture_distance() and force(gap, radius); the law of the "
+                "push comes second");
   static_assert(
       !detail::Attracts<Law>,
       "Bridged<Bridge, Law>: Law has an attraction of its own, and a contact has one attraction");
   static_assert(!detail::HasSprings<Law>,
                 "Bridged<Bridge, Law>: Law has springs; they go outside: Compliant<Bridged<..>>");
   static_assert(
-      detail::GivesImpulses<Law, typename Bridge::Scalar>,
+      !detail::gives_bridge_force<Bridge> ||
+          detail::GivesImpulses<Law, typename detail::ScalarOfBridge<Bridge>::type>,
       "Bridged<Bridge, Law>: Law gives no impulses (velocity_offset) in the scalar of Bridge");
   static constexpr std::size_t variants_of_law() {
     if constexpr (requires(const Law& law) {
@@ -131,7 +159,7 @@ class Bridged : public Law {
   }
 
  public:
-  using Scalar = typename Bridge::Scalar;
+  using Scalar = typename detail::ScalarOfBridge<Bridge>::type;
 
   /// @param bridge its force and its rupture
   /// @param law    the law without bridge

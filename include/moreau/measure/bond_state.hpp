@@ -23,6 +23,9 @@ struct BondState {
 /// Measures the bonds of a simulation.
 /// @param simulation a Simulation whose law is a BondingLaw
 template <class Simulation>
+requires requires(const Simulation& simulation) {
+  simulation.bonds();
+}
 BondState bond_state(const Simulation& simulation) {
   BondState state;
   detail::DisjointSets fragments(simulation.bodies().size());
