@@ -41,7 +41,7 @@
 // the rate L+ at the end of the step. The cell is a body with the velocity L that all contacts touch, so that jammed
 // grains without compliance can bear a stress. detail/cell/cell_servo.hpp solves both together. Between L before the step and
 // L+, the cell moves as a body does: with L up to the detection, with L+ from then on; the work of the contacts has the
-// mean of both.
+// mean of both, that of the velocities (the sum over grains) has L.
 #pragma once
 
 #include <cmath>

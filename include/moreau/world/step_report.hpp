@@ -55,9 +55,9 @@ struct StepReport {
   /// Estimated relative error of the forces of the bonds [-]: solve.residual, or 32 epsilon / bond_load if that
   /// is larger, because impulses have the rounding of the strength; at most 1.
   double bond_error = 0;
-  /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x
-  /// step, with the volume at detection, which is that after the step over det(1 + theta step rate). Kinetic
-  /// energies are of velocities relative to the cell (world/cell_control.hpp).
+  /// Work of a periodic cell that deforms on the grains in the step [J]: minus volume x trace(stress x rate) x step, with the
+  /// volume at detection, CellMotion::volume(). Where the stress moves the cell, the part of the contacts has the mean of the
+  /// rates before and after the step, that of the velocities the rate before it. Kinetic energies are relative to the cell.
   double cell_work = 0;
   /// Stress of a cell of set_cell() in the step, compression positive, world axes [Pa]: CellMotion::stress(). In the
   /// plane it is in the first two rows and columns [N/m]. Zero without such a cell.
