@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "moreau/detect/broad/cell_grid.hpp"
@@ -159,7 +160,86 @@ void laws_of_attraction(const std::vector<ShapeT>& shapes,
   }
 }
 
-/// Both. Subcases of doctest: the test case runs once for each.
+/// The pairs of a wrapper and a law (tests/static/laws.cpp) that the functions above leave out.
+template <class ShapeT>
+void other_pairs(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
+  using T = typename moreau::SpaceOf<ShapeT>::Scalar;
+  using Coulomb = moreau::SignoriniCoulomb<T>;
+  using Smooth = moreau::Frictionless<T>;
+  using Rolling = moreau::RollingResistance<T>;
+  using Walton = moreau::TangentialRestitution<T>;
+  const Coulomb coulomb(T(0.4));
+  const Smooth smooth;
+  const Rolling rolling(T(0.4), T(0.1));
+  const Walton walton(T(0.3), T(0.8), T(0.4));
+  const moreau::CapillaryBridge<T> water(T(1e-12));
+  const moreau::LinearCohesion<T> linear(T(1e-4), T(1e-4));
+  const T stiffness = T(1e9) * lightest(shapes);
+  const auto cohesive = [](const auto& law) {
+    return moreau::Cohesive<std::decay_t<decltype(law)>>(law, T(1e-3));
+  };
+  const auto bridged = [](const auto& bridge, const auto& law) {
+    using Bridge = std::decay_t<decltype(bridge)>;
+    return moreau::Bridged<Bridge, std::decay_t<decltype(law)>>(bridge, law);
+  };
+  const auto run = [&](const auto& law) { world(shapes, law, size); };
+  const auto run_with_springs = [&](const auto& law) {
+    run(moreau::Compliant<std::decay_t<decltype(law)>>(law, stiffness));
+  };
+  SUBCASE("Cohesive with a tangential restitution") {
+    run(cohesive(walton));
+  }
+  SUBCASE("Capillary bridges without friction") {
+    run(bridged(water, smooth));
+  }
+  SUBCASE("Capillary bridges with rolling resistance") {
+    run(bridged(water, rolling));
+  }
+  SUBCASE("Capillary bridges with a tangential restitution") {
+    run(bridged(water, walton));
+  }
+  SUBCASE("Linear cohesion with friction") {
+    run(bridged(linear, coulomb));
+  }
+  SUBCASE("Linear cohesion without friction") {
+    run(bridged(linear, smooth));
+  }
+  SUBCASE("Linear cohesion with rolling resistance") {
+    run(bridged(linear, rolling));
+  }
+  SUBCASE("Linear cohesion with a tangential restitution") {
+    run(bridged(linear, walton));
+  }
+  SUBCASE("Springs without friction") {
+    run_with_springs(smooth);
+  }
+  SUBCASE("Springs, cohesive with friction") {
+    run_with_springs(cohesive(coulomb));
+  }
+  SUBCASE("Springs, cohesive without friction") {
+    run_with_springs(cohesive(smooth));
+  }
+  SUBCASE("Springs, cohesive with rolling resistance") {
+    run_with_springs(cohesive(rolling));
+  }
+  SUBCASE("Springs and capillary bridges with friction") {
+    run_with_springs(bridged(water, coulomb));
+  }
+  SUBCASE("Springs and capillary bridges without friction") {
+    run_with_springs(bridged(water, smooth));
+  }
+  SUBCASE("Springs and capillary bridges with rolling resistance") {
+    run_with_springs(bridged(water, rolling));
+  }
+  SUBCASE("Springs and linear cohesion with friction") {
+    run_with_springs(bridged(linear, coulomb));
+  }
+  SUBCASE("Springs and linear cohesion without friction") {
+    run_with_springs(bridged(linear, smooth));
+  }
+}
+
+/// Those with and without attraction. Subcases of doctest: the test case runs once for each.
 template <class ShapeT>
 void all_laws(const std::vector<ShapeT>& shapes, typename moreau::SpaceOf<ShapeT>::Scalar size) {
   laws_of_pushes(shapes, size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulations under the pairs of a wrapper and a law (tests/static/laws.cpp) that the suites of every shape
-// (conformance/matrix.hpp) and of the cell (cell.cpp) leave out.
+// Simulations under pairs of a wrapper and a law (tests/static/laws.cpp) that the suites of every shape in space
+// (tests/matrix) and of the cell (cell.cpp) leave out; in the plane tests/matrix/plane_pairs.cpp has every shape under them.
 #include "moreau/law/bridges.hpp"
 #include "moreau/law/cohesive.hpp"
 #include "moreau/law/compliant.hpp"
