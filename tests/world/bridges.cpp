@@ -192,11 +192,14 @@ TEST_CASE_TEMPLATE(
   CHECK(agree(work, integral, 0.01));
   CHECK(std::abs(energy.terms().drives - work) < 1e-4 * work);
   CHECK(std::abs(energy.imbalance()) < 1e-6 * std::max(work, rounding));
-  // The other way round there is no bridge until they touch.
-  for (int k = 0; k < 50; ++k) {
-    two.move(speed);
+  // The other way round there is no bridge until they touch; then the cycle is closed.
+  for (int k = 0; k < 2000 && two.distance() > T(2) * speed * T(h); ++k) {
+    energy.add(two.world, two.move(speed), T(h));
     CHECK(two.pull() == 0);
   }
+  for (int k = 0; k < 5; ++k) energy.add(two.world, two.move(speed), T(h));
+  CHECK(two.pull() != 0);
+  CHECK(std::abs(energy.imbalance()) < 1e-6 * std::max(work, rounding));
 }
 
 TEST_CASE_TEMPLATE("bridge: a grain hangs up to the pull-off force", X,
