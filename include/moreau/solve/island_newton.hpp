@@ -179,7 +179,8 @@ class IslandNewton {
     is_better_ = false;
     first_ = 0;
     const Errors errors = make_steps(epsilon, precision);
-    if (!errors.is_solved()) return std::max(errors.last, 2 * precision.tolerance);
+    is_solved_ = errors.is_solved();
+    if (!is_solved_) return std::max(errors.last, 2 * precision.tolerance);
     if (has_smooth_point()) {
       step_.refine(mass_ratio());
       is_better_ = true;  // the changes of the steps before are those of rounding
@@ -207,7 +208,7 @@ class IslandNewton {
   double solve_evenly(double epsilon, const Precision& precision) {
     const double left_out = step_.even_faces(precision.tolerance);
     const double error = std::max(left_out, solve(epsilon, precision));
-    is_better_ = error <= precision.tolerance;
+    is_better_ = is_solved_;
     return error;
   }
   /// Whether the impulses that solve() has found are better than those from which it started, as far as is known:
@@ -284,6 +285,7 @@ class IslandNewton {
   double first_ = 0;        // see first_change()
   bool slides_ = false;     // see slides_on_faces()
   bool is_better_ = false;  // the impulses than those from which solve() started
+  bool is_solved_ = false;  // the island by solve(): to the tolerance, or to rounding
 };
 
 }  // namespace moreau::detail

@@ -42,6 +42,9 @@ class IslandSolver {
   using Problem = ContactProblem<Operator, Law>;
   using Impulse = typename Operator::Vector;
   using Impulses = std::span<Impulse>;
+  /// Error, and residual, up to which even pressures are better than those that sweeps have given, under tolerances
+  /// near rounding.
+  static constexpr double even_enough = 1e-6;
 
   /// Finds the small islands and solves those that are near a solution.
   /// @param impulses  in: the warm start; out: those of the islands are better or the same [N s]
@@ -125,13 +128,16 @@ class IslandSolver {
       // Of an island without a warm start the pressures shall be even, not only a solution.
       const double defect = start_newton(problem, impulses);
       if (attempt_open(problem, one, impulses, defect)) continue;
-      if (one.is_new && newton_.slides_on_faces()) start_by_springs(problem, impulses);
+      const bool by_springs = one.is_new && newton_.slides_on_faces();
+      if (by_springs) start_by_springs(problem, impulses);
       if (!one.failed && attempt_evenly(problem, one, impulses, sweeps, defect, late_epsilon))
         continue;
       if (one.is_new && one.failed) {  // the pressures of springs are far from the solution
         start_by_springs(problem, impulses);
         if (attempt_evenly(problem, one, impulses, sweeps, defect, even_epsilon)) continue;
       }
+      // The first step of solve_near() is that of these springs: from their motion it would change nothing, as if solved.
+      if (by_springs) start_newton(problem, impulses);
       if (!one.is_new && accept(one, defect)) continue;
       if (newton_.slip() >= 1 && converged) continue;
       // Sweeps give the load of a pair to the point that they visit first.
@@ -141,12 +147,7 @@ class IslandSolver {
         made_even_ = made_even_ || one.is_new;
         continue;
       }
-      if (one.is_new && newton_.is_better() && error <= std::max(near * tolerance_, even_enough)) {
-        newton_.finish(impulses);
-        one.error = error;
-        made_even_ = true;
-        continue;
-      }
+      if (one.is_new && newton_.is_better() && keep_even(one, impulses, error)) continue;
       const double by_sweeps = one.error;
       start_newton(problem, impulses);
       if (!solve_directly(one, impulses, late_epsilon, most_steps, defect) &&
@@ -261,9 +262,6 @@ class IslandSolver {
   /// Multiples of the tolerance: up to the first one impulses are kept, as a better start for the next step; up to the
   /// second one an island counts as solved in the report.
   static constexpr double near = 10, accepted = 100;
-  /// Error up to which even pressures are a better start for sweeps than those that sweeps have given, under tolerances
-  /// near rounding.
-  static constexpr double even_enough = 1e-6;
   /// Of the velocity that the warm start gives to a body, too.
   static constexpr double least_share = Problem::least_share;
   /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
@@ -389,7 +387,7 @@ class IslandSolver {
   }
   /// Solves an island in which faces slide, from impulses whose defect start() has found, with even pressures.
   /// @param epsilon of the first proximal step
-  /// @returns whether it succeeds; if not, the impulses are those of start()
+  /// @returns whether it succeeds; if it was made and failed, the impulses are those of start_newton()
   MOREAU_COLD bool attempt_evenly(const Problem& problem, Small& one, Impulses impulses, int sweeps,
                                   double defect, double epsilon) {
     // With springs the pressure is unique.
@@ -403,14 +401,13 @@ class IslandSolver {
     find_cost(one);
     if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
     const double error = newton_.solve_evenly(epsilon, {tolerance_, least_epsilon, most_steps});
-    one.failed = !newton_.is_better();
-    if (one.failed) {
+    one.failed = !newton_.is_better() ||
+                 !(keep(one, impulses, error, defect) || keep_even(one, impulses, error));
+    if (one.failed)
       start_newton(problem, impulses);
-      return false;
-    }
-    keep(one, impulses, error, defect);
-    made_even_ = true;
-    return true;
+    else
+      made_even_ = true;
+    return !one.failed;
   }
   /// Whether a contact of an island has a law with static friction: its variants stand side by side in the table of laws, and
   /// their friction differs. Whether a point slides follows from its impulse, which then must lie on the cone of its own
@@ -471,6 +468,16 @@ class IslandSolver {
       moved_[body] = 1;
       motion_[body] = change.template cast<typename Operator::Scalar>();
     });
+    return true;
+  }
+
+  /// Keeps even pressures that are not accurate enough for keep(), see even_enough.
+  /// @returns whether they are kept
+  MOREAU_INLINED bool keep_even(Small& one, Impulses impulses, double error) {
+    if (!(error <= even_enough)) return false;
+    newton_.finish(impulses);
+    one.error = error;
+    made_even_ = true;
     return true;
   }
 

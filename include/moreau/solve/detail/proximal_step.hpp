@@ -185,8 +185,9 @@ class ProximalStep {
       find_scales(found_, next_);
       const double left = scales_.relative(points_, f_), exact = rounding / epsilon;
       const double aim = std::max(share * tolerance, exact);
-      // Rounding can leave a little more, in which steps change nothing.
-      const bool solved = !(left > aim) || (left > before / 2 && !(left > several * exact));
+      // Rounding can leave a little more, in which steps change nothing, or lead nowhere.
+      const bool rounded = !(left > several * exact);
+      const bool solved = !(left > aim) || (left > before / 2 && rounded);
       // Once more where it is solved: the problem is linear near its solution, and the step leads to it.
       if (!(left > (polishes() ? exact : aim)) ||
           (solved && (left > polish * before || steps_ == most_steps)))
@@ -195,7 +196,7 @@ class ProximalStep {
       ++steps_;
       before = left;
       if (!newton_direction() || !shorten(epsilon, norm, least)) {
-        if (!solved) return false;
+        if (!solved && !rounded) return false;
         respond(epsilon, next_);
         break;
       }

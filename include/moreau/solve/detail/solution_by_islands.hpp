@@ -83,7 +83,11 @@ class SolutionByIslands {
       // The errors after roll_back() are those before judge(): bodies can be squeezed.
       if (report_.converged && sweeps_converged) judge(true);
     }
-    if (sweeps_converged && !(refines && report_.converged)) use_sweeps();
+    // Of even pressures that stay above a tolerance near rounding the report says that they are not solved. Those of the sweeps
+    // are solved, but can turn a body.
+    const bool rounded =
+        report_.residual > options_.tolerance && report_.residual <= islands.even_enough;
+    if (sweeps_converged && !(refines && (report_.converged || rounded))) use_sweeps();
   }
   /// After solve_once(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
   /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
