@@ -304,6 +304,24 @@ TEST_CASE("check: structures that no direct method judges") {
     }
 }
 
+// The impulses of the step in which a lid lands say nothing about a structure at rest.
+TEST_CASE("check: a lid that lands is no structure at rest") {
+  World world = cube(0.02, 0.01);
+  ColouredOptions options;
+  options.islands = false;
+  world.set_solver(ColouredGaussSeidel(options));
+  const ShapeId shape = world.add_shape(cube_shape());
+  for (int k = 1; k < 8; ++k) world.add_grain(shape, Pose<Space<3>>({0, 0, 0.01 + 0.02 * k}), 2000);
+  const BodyId lid = world.add_wall({0, 0, -1}, {0, 0, 0.19});
+  world.set_wall_mass(lid, 20);
+  world.set_force(lid, {0, 0, -20 * 9.81});
+  std::vector<std::string> all;
+  for (int k = 0; k < 200 && world.contact_impulse(lid).isZero(0); ++k)
+    all = check(world, world.step(1e-3));
+  CHECK(!world.contact_impulse(lid).isZero(0));
+  CHECK(!one_contains(all, "no direct method judges"));
+}
+
 TEST_CASE("check: a tolerance that says little about the forces of stiff contacts") {
   using Soft = Compliant<Law>;
   ColouredOptions options;
@@ -727,6 +745,16 @@ TEST_CASE_TEMPLATE(
   CHECK(check(lid, lid.step(h)).empty());  // it still moves down
   lid.set_force(BodyId(1), T(9.81) * up);
   CHECK(says(lid, "the force on wall 1, -9.81 N along its normal, pulls it away from the grains"));
+  // A piston that has pressed is pulled back on purpose.
+  auto piston = box();
+  piston.set_wall_mass(BodyId(1), 5);
+  piston.set_force(BodyId(1), T(-50) * up);
+  for (int k = 0; k < 3000 && piston.contact_impulse(BodyId(1)).isZero(0); ++k) piston.step(h);
+  for (int k = 0; k < 100; ++k) piston.step(h);
+  CHECK(!piston.contact_impulse(BodyId(1)).isZero(0));
+  piston.set_force(BodyId(1), T(50) * up);
+  for (int k = 0; k < 50; ++k) CHECK(check(piston, piston.step(h)).empty());
+  CHECK(piston.velocity(BodyId(1)).dot(up) > 0);
   // A lid that slides: set_velocity() in every step holds it back, in the air and where it touches grains a little.
   for (const bool is_held_back : {false, true}) {
     auto shear = box();

@@ -73,8 +73,8 @@ class SentencesOnce {
 ///          - a force or torque on a body whose motion is prescribed, as that of a wall without a mass, or along a wall that
 ///            has one; the motion of all bodies is prescribed
 ///          - a wall with a mass has passed a parallel wall that faces it; two walls lie in the same plane or place; a wall with a mass
-///            above grains has no force, as gravity does not act on it; the force on a wall with a mass pulls it away from the
-///            grains, or set_velocity() holds it back in every step
+///            above grains has no force, as gravity does not act on it; the force on a wall with a mass alone has
+///            pulled it away from the grains, since the start or from rest, or set_velocity() holds it back in every step
 ///          - a grain, a wall or an obstacle turns so fast that its surface moves by more than half a grain size in the step (rpm)
 ///          - a grain that is not compound lies behind the nearest facet of a mesh wall with one side; all grains lie in a
 ///            thousandth of a mesh wall, which is probably in mm

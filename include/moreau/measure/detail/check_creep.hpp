@@ -47,6 +47,28 @@ MOREAU_INLINED inline int longest_way(std::size_t bodies, const auto& pairs, con
   return longest;
 }
 
+/// Whether a contact closed in the step so fast that loads alone would take several steps to: the impulses are those of an
+/// impact, and a residual relative to them says nothing about bodies at rest.
+template <class Simulation>
+MOREAU_INLINED inline bool has_collided(const Simulation& simulation) {
+  if constexpr (requires { simulation.contact_problem(); }) {
+    constexpr double several = 3;
+    const auto& problem = simulation.contact_problem();
+    const auto& contacts = simulation.contacts();
+    if (problem.load.size() != simulation.bodies().size() ||
+        problem.delassus.size() != contacts.size())
+      return false;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& point = contacts.points[c];
+      const double load = std::max(double(problem.load[point.a]), double(problem.load[point.b]));
+      if (contacts.impulses[c][0] > 0 &&
+          -double(problem.delassus.free_velocity(c)[0]) > several * load)
+        return true;
+    }
+  }
+  return false;
+}
+
 /// Says how fast a structure at rest can creep by the residual, if that is more than a hundredth of the grain size in a
 /// second. Packings of more bodies than a small island has are not judged.
 template <class Simulation>
@@ -58,6 +80,7 @@ template <class Simulation>
   const double size = double(simulation.grain_size());
   if (report.solve.islands > 0 || !report.solve.converged || report.bonds > 0) return;
   if (simulation.grain_count() > most_bodies || !(report.solve.residual > 0)) return;
+  if (has_collided(simulation)) return;
   const auto& bodies = simulation.bodies();
   const auto& contacts = simulation.contacts();
   double trace = 0, squares = 0;
