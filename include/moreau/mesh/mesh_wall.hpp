@@ -110,13 +110,7 @@ class MeshWall {
   /// Whether a grain can touch a vertex as such: convex ridges end there that do not form a line.
   bool is_tip(std::size_t v) const { return tips_.is_tip(v); }
   /// Whether side(k) has neither a convex ridge nor a tip.
-  bool is_plain(std::size_t k) const {
-    for (const std::uint32_t r : facet_sides_[k].ridge)
-      if (r != none) return false;
-    for (const std::uint32_t v : facets_[k])
-      if (is_tip(v)) return false;
-    return true;
-  }
+  bool is_plain(std::size_t k) const { return kinds_[k].is_plain; }
   /// The place of the facet that joins side(k) at the ridge opposite corner c, or `none` at a rim.
   std::uint32_t neighbour(std::size_t k, std::size_t c) const { return neighbours_[k][c]; }
   /// Whether side(k) has a concave ridge opposite corner c.
@@ -126,11 +120,7 @@ class MeshWall {
     return other != none && side.ridge[c] == none && facet_sides_[other].face != side.face;
   }
   /// Whether side(k) has a concave ridge.
-  bool has_concave(std::size_t k) const {
-    bool has = false;
-    for (std::size_t c = 0; c < facets_[k].size(); ++c) has = has || is_concave(k, c);
-    return has;
-  }
+  bool has_concave(std::size_t k) const { return kinds_[k].has_concave; }
   /// Whether a direction d, for which is_top() holds, leads from a tip to the outside, and not to the back of a
   /// surface with one side. At a rim both are free.
   bool is_outward(std::size_t v, const Vector& d) const { return tips_.is_outward(v, d); }
@@ -144,6 +134,10 @@ class MeshWall {
   const detail::BoxTree<S>& tree() const { return tree_; }
 
  private:
+  struct Kind {
+    bool is_plain = true, has_concave = false;
+  };
+
   friend struct SerializationAccess;
   MeshWall() = default;
   auto serialized_members() { return std::tie(mesh_.vertices, mesh_.facets, sides_); }
@@ -158,6 +152,7 @@ class MeshWall {
   void set_inward();
   void set_ridges(const std::vector<Ridge<S>>& ridges);
   void sort_by_place();
+  void set_kinds();
   /// A vector without its component along a ridge.
   Vector across(const Ridge<S>& ridge, Vector x) const {
     if constexpr (S::dim == 3) {
@@ -174,6 +169,7 @@ class MeshWall {
   std::vector<Side> facet_sides_;
   std::vector<Facet> neighbours_;  ///< see neighbour()
   std::vector<Aabb<S>> boxes_;
+  std::vector<Kind> kinds_;  ///< see is_plain() and has_concave()
   std::vector<ConvexRidge> ridges_;
   detail::TipNormals<S> tips_;
   detail::BoxTree<S> tree_;
@@ -207,6 +203,22 @@ void MeshWall<S>::build() {
       std::span(std::as_const(facet_sides_)), std::span(std::as_const(ridges_)), ridges,
       sides_ == WallSides::both);
   sort_by_place();
+  set_kinds();
+}
+
+/// Searches of facets near a grain ask for the kind of each facet that they find.
+template <EuclideanSpace S>
+void MeshWall<S>::set_kinds() {
+  kinds_.resize(facets_.size());
+  for (std::size_t k = 0; k < facets_.size(); ++k) {
+    Kind kind;
+    const Side& side = facet_sides_[k];
+    for (std::size_t c = 0; c < facets_[k].size(); ++c) {
+      kind.is_plain = kind.is_plain && side.ridge[c] == none && !is_tip(facets_[k][c]);
+      kind.has_concave = kind.has_concave || is_concave(k, c);
+    }
+    kinds_[k] = kind;
+  }
 }
 
 /// Makes the tree, and brings the facets into its order: those near each other are near in memory.

@@ -70,7 +70,7 @@ class MeshCollision {
       : pair_(a, radius, wall, margin, largest, scratch), out_(out) {}
 
   /// Calls use(face) for each manifold on a face; collects ridges and tips for touch_points().
-  /// @param near facets among which are those within the margin, face after face
+  /// @param near facets whose boxes overlap that of the shape, inflated by the margin; face after face
   template <class Use>
   bool touch_faces(const Aabb<S>& box, std::span<const NearFacet> near, const Use& use) {
     pair_.scratch.ridges.clear();
@@ -78,16 +78,14 @@ class MeshCollision {
     pair_.scratch.known.clear();
     pair_.scratch.passed.clear();
     facets_ = near;
-    const Aabb<S> around = box.inflated(pair_.margin - pair_.radius);
-    const FacetRegion<S> region{pair_.wall,        near,       around,      pair_.reference,
+    const FacetRegion<S> region{pair_.wall,        near,       pair_.reference,
                                 pair_.core.size(), pair_.near, pair_.beside};
     move_reference(region);
     bool touch = false;
     const Aabb<S> within = box.inflated(pair_.largest - pair_.radius);
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
       while (end < near.size() && near[end].face == near[begin].face) ++end;
-      if (!take_face(near.subspan(begin, end - begin), around, within) || !touch_face(region))
-        continue;
+      if (!take_face(near.subspan(begin, end - begin), within) || !touch_face(region)) continue;
       finish();
       use(near[begin].face);
       touch = true;
@@ -176,8 +174,7 @@ class MeshCollision {
     const Vector most = Vector::Constant(deepest + pair_.near);
     const Aabb<S> nearby{pair_.center - most, pair_.center + most};
     const auto counts = [&](const NearFacet& facet) {
-      const Aabb<S>& box = pair_.wall.box(facet.place);
-      return box.overlaps(nearby) && box.overlaps(region.around);
+      return pair_.wall.box(facet.place).overlaps(nearby);
     };
     // Most centres are in front of all facets near them.
     if (std::none_of(region.facets.begin(), region.facets.end(), [&](const NearFacet& facet) {
@@ -202,13 +199,14 @@ class MeshCollision {
       pair_.reference += (1 + deepest / (8 * least)) * to_facet;
   }
   /// Takes the facets of a face if the shape is in front of it and near it.
-  /// @param around,within the box of the shape, inflated by the margin and by the largest gap. A facet beside a concave
-  ///                      ridge can have vertices that are as far beyond the ridge as the margin
-  bool take_face(std::span<const NearFacet> face, const Aabb<S>& around, const Aabb<S>& within) {
+  /// @param within the box of the shape, inflated by the largest gap. A facet beside a concave ridge can have vertices
+  ///               that are as far beyond the ridge as the margin
+  bool take_face(std::span<const NearFacet> face, const Aabb<S>& within) {
     pair_.scratch.facets.clear();
     plane_ = nullptr;
+    const bool is_less = pair_.largest < pair_.margin;  // otherwise all boxes overlap that box
     for (const NearFacet& facet : face) {
-      if (!pair_.wall.box(facet.place).overlaps(facet.has_concave ? around : within)) continue;
+      if (is_less && !facet.has_concave && !pair_.wall.box(facet.place).overlaps(within)) continue;
       if (!plane_) {
         plane_ = &pair_.wall.side(facet.place);
         above_ = pair_.height(*plane_);
@@ -298,7 +296,6 @@ class MeshCollision {
     const T off = pair_.wall.flatness() + T(1e3) * pair_.near;
     return std::any_of(region.facets.begin(), region.facets.end(), [&](const NearFacet& facet) {
       const Aabb<S>& box = pair_.wall.box(facet.place);
-      if (!box.overlaps(region.around)) return false;
       const auto& side = pair_.wall.side(facet.place);
       const T gap = side.normal.dot(x) - side.offset;
       if (!(gap > pair_.largest && gap <= pair_.margin) || !(pair_.reference_height(side) > 0) ||
@@ -324,7 +321,7 @@ class MeshCollision {
   RidgeContacts<ShapeT> ridges_{pair_};
   TipContacts<ShapeT> tips_{pair_};
   Manifold<S>& out_;
-  std::span<const NearFacet> facets_;  // at least those within the margin
+  std::span<const NearFacet> facets_;  // whose boxes are within the margin
   std::size_t begin_of_points_ = 0;    // of the known contacts, after those in manifolds of faces
   // Of take_face().
   const typename Wall::Side* plane_ = nullptr;
@@ -347,14 +344,12 @@ bool collide_core(const Placed<ShapeT>& a, T radius, const Wall& wall, T margin,
     T thickness = radius;
     if constexpr (is_ball<ShapeT>) thickness += a.radius();
     MeshCollision<ShapeT> collision(a, thickness, wall, margin, largest, scratch, out);
-    std::span<const NearFacet> facets;
-    if (near) {
-      facets = near->facets();
-    } else {
-      find_facets(wall, box.inflated(margin), scratch.all);
-      facets = scratch.all;
-    }
-    const bool faces = collision.touch_faces(box, facets, use);
+    const Aabb<SpaceOf<ShapeT>> around = box.inflated(margin);
+    if (near)
+      select_facets(wall, around, near->facets(), scratch.all);
+    else
+      find_facets(wall, around, scratch.all);
+    const bool faces = collision.touch_faces(box, scratch.all, use);
     const bool points = collision.touch_points(use);
     return faces || points;
   }

@@ -54,8 +54,7 @@ struct FacetRegion {
   using Wall = MeshWall<S>;
 
   const Wall& wall;
-  std::span<const NearFacet> facets;  ///< near the shape
-  const Aabb<S>& around;              ///< the box of the shape, inflated by the margin [m]
+  std::span<const NearFacet> facets;  ///< with boxes within the margin of the box of the shape
   const Vector& center;  ///< of the shape, or a point beside it in front of the wall [m]
   T size;                ///< of the shape around its centre [m]
   T near;                ///< lengths below it count as 0 [m]
@@ -123,7 +122,6 @@ struct FacetRegion {
   bool is_behind(const Vector& x) const {
     int inwards = 0;
     for (const NearFacet& facet : facets) {
-      if (!wall.box(facet.place).overlaps(around)) continue;
       inwards += goes_through(facet.place, center, x);
       if (wall.sides() == WallSides::outside) inwards -= goes_through(facet.place, x, center);
     }
@@ -133,7 +131,6 @@ struct FacetRegion {
   template <class Use>
   void for_each_over(const Vector& x, const Use& use) const {
     for (const NearFacet& facet : facets) {
-      if (!wall.box(facet.place).overlaps(around)) continue;
       const T gap = height_above(wall.side(facet.place), x);
       if (gap < -near && height_above(wall.side(facet.place), center) > 0) use(facet.place, gap);
     }
@@ -168,7 +165,7 @@ struct FacetRegion {
     bool is_beyond = is_beyond_rim(f, x);
     for (const NearFacet& facet : facets) {
       const auto& box = wall.box(facet.place);
-      if (!box.overlaps(around) || !box.inflated(least + near).contains(x)) continue;
+      if (!box.inflated(least + near).contains(x)) continue;
       const Side& side = wall.side(facet.place);
       // A thin wall has two surfaces: the one counts in front of which the shape is.
       if (wall.sides() == WallSides::both && !(height_above(side, center) > 0)) continue;

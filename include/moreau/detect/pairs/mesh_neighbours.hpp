@@ -20,7 +20,16 @@ struct NearFacet {
   bool is_plain;        ///< whether the facet has neither a convex ridge nor a tip
   bool has_concave;     ///< whether the facet has a concave ridge
 
-  friend constexpr auto operator<=>(const NearFacet&, const NearFacet&) = default;
+  // By face and place: a place has one facet.
+  friend constexpr auto operator<=>(const NearFacet& a, const NearFacet& b) {
+    return a.key() <=> b.key();
+  }
+  friend constexpr bool operator==(const NearFacet& a, const NearFacet& b) {
+    return a.key() == b.key();
+  }
+
+ private:
+  constexpr std::uint64_t key() const { return std::uint64_t{face} << 32 | place; }
 };
 
 namespace detail {
@@ -58,6 +67,15 @@ void find_facets(const MeshWall<S>& wall, const Aabb<S>& box, std::vector<NearFa
           facets.push_back({wall.side(k).face, k, wall.is_plain(k), wall.has_concave(k)});
       });
   sort_short(facets);
+}
+
+/// Takes those of a list of facets whose boxes overlap a box.
+template <class S>
+void select_facets(const MeshWall<S>& wall, const Aabb<S>& box, std::span<const NearFacet> list,
+                   std::vector<NearFacet>& facets) {
+  facets.clear();
+  for (const NearFacet& facet : list)
+    if (wall.box(facet.place).overlaps(box)) facets.push_back(facet);
 }
 
 }  // namespace detail

@@ -111,7 +111,7 @@ class KnownContacts {
 /// Memory of collisions with mesh walls, used again from one to the next.
 struct MeshScratch {
   std::vector<NearFacet> facets;      ///< of the present face
-  std::vector<NearFacet> all;         ///< near the shape, if not known before
+  std::vector<NearFacet> all;         ///< near the shape
   std::vector<std::uint32_t> ridges;  ///< convex ridges near the shape
   std::vector<std::uint32_t> low;     ///< vertices of the shape
   std::vector<std::uint32_t> passed;  ///< vertices that passed through a facet and do not touch it

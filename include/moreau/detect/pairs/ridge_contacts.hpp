@@ -42,10 +42,13 @@ class RidgeContacts {
     // edge through such a point has an end there or below.
     const T lowest = -ridge.middle.dot(line.from) - pair_.largest;
     pair_.scratch.low.clear();
-    const auto add_low = [&](std::uint32_t v) { pair_.scratch.low.push_back(v); };
-    pair_.core.for_each_above(-ridge.middle, lowest, add_low);
+    std::uint64_t low = 0;  // bit v: whether vertex v < 64 is in the list
+    pair_.core.for_each_above(-ridge.middle, lowest, [&](std::uint32_t v) {
+      pair_.scratch.low.push_back(v);
+      if (v < 64) low |= std::uint64_t{1} << v;
+    });
     const auto is_below = [&](std::uint32_t v) {
-      return -ridge.middle.dot(pair_.core.vertex(v)) >= lowest;
+      return v < 64 ? (low >> v & 1) != 0 : -ridge.middle.dot(pair_.core.vertex(v)) >= lowest;
     };
     for (const std::uint32_t v : pair_.scratch.low) {
       pair_.core.for_each_edge_at(v, [&](std::uint32_t e, std::uint32_t other) {
