@@ -40,9 +40,9 @@ void soften_bonds(const StepContext<S, Law>& context, BondList<S, Law>& bonds,
   const auto change = [&](std::size_t c, Scalar pull) {
     attraction.change(c, pull, context.contacts, roots, pushes[c]);
     if constexpr (CompliantLaw<Law, S>) {
-      auto spring = op.compliance(c);
-      spring.tail(spring.size() - 1).setZero();
-      op.offset(c, -pull * spring);
+      typename Operator::Vector normal = Operator::Vector::Zero();
+      normal[0] = -pull * op.compliance(c)[0];
+      op.offset(c, normal);
     }
   };
   for (int k = 1; k < BondList<S, Law>::max_solutions; ++k) {
