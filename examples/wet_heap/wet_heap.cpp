@@ -75,7 +75,7 @@ class Column {
   double width() const {
     double sum = 0;
     for (const moreau::BodyId grain : grains_)
-      sum += simulation_.pose(grain).position.head(up).squaredNorm();
+      sum += simulation_.pose(grain).position.template head<up>().squaredNorm();
     return std::sqrt(sum / double(grains_.size())) / (2 * radius);
   }
   /// Contacts with a bridge.
@@ -109,7 +109,8 @@ class Column {
       int rest = place;
       for (int k = 0; k < up; ++k, rest /= count) x[k] = 2.1 * radius * (rest % count - width);
       x[up] = radius * (1 + 2.1 * rest);
-      x.head(up).array() += 1.05 * radius * (rest % 2);  // above the gaps of the layer below
+      x.template head<up>().array() +=
+          1.05 * radius * (rest % 2);  // above the gaps of the layer below
       use(x);
     }
   }
