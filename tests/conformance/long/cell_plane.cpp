@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Every shape of the plane in a periodic cell that deforms: rigid, wet, and with bonds on springs.
-#include "moreau/law/bonded.hpp"
-#include "moreau/law/bridges.hpp"
-#include "moreau/law/compliant.hpp"
-#include "moreau/law/rolling_resistance.hpp"
-
-#include "conformance/cell.hpp"
+#include "conformance/cell_laws.hpp"
 #include "matrix/shapes.hpp"
 
 namespace {
 
 using S = moreau::Space<2>;
 using Sharp = moreau::Polygon<>;
-using Water = moreau::CapillaryBridge<>;
-using Rolling = moreau::RollingResistance<>;
-
-constexpr auto in_cell = [](const auto& shapes, double size) {
-  const moreau::Bonded<> bonds({2, 1.5, 1}, 0.4, 0.1);
-  conformance::cell(shapes, moreau::SignoriniCoulomb<>(0.4), size, 4);
-  conformance::cell(shapes, moreau::Bridged<Water, Rolling>(Water(1e-12), Rolling(0.4, 0.1)), size,
-                    4);
-  conformance::cell(shapes, moreau::Compliant<moreau::Bonded<>>(bonds, 1e6, 5e5), size, 4);
-};
+using conformance::in_cell;
 
 }  // namespace
 
