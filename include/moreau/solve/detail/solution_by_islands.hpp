@@ -6,7 +6,8 @@
 //  2. Sweeps over all contacts, to the tolerance of the residual.
 //  3. The direct method solves other islands from the impulses of the sweeps.
 //  4. Where the residual is larger than before, sweeps go on from there, or the impulses of step 2 are kept.
-//  5. Where islands are not solved, further sweeps, and the direct method once more.
+//  5. Where islands are not solved, further sweeps, and the direct method again; up to three times, with twice as many sweeps
+//     each time.
 //
 // After each of the steps 1, 3 and 5 all impulses are judged together.
 #pragma once
@@ -37,9 +38,7 @@ class SolutionByIslands {
 
   SolveReport solve() {
     solve_once();
-    if (report_.unsolved_islands > 0 && report_.residual <= options_.tolerance &&
-        is_closed(report_))
-      solve_failed();
+    if (has_failed()) solve_failed();
     return report_;
   }
 
@@ -89,29 +88,41 @@ class SolutionByIslands {
         report_.residual > options_.tolerance && report_.residual <= islands.even_enough;
     if (sweeps_converged && !(refines && (report_.converged || rounded))) use_sweeps();
   }
+  /// Whether the sweeps have met their tolerance, and the direct method has failed to solve islands.
+  bool has_failed() const {
+    return report_.unsolved_islands > 0 && report_.residual <= options_.tolerance &&
+           is_closed(report_);
+  }
   /// After solve_once(): makes further sweeps where islands are not solved, and solves these from there. Impulses that
   /// meet the tolerance of the sweeps can be so far from the solution that the lifts of the direct method (island_newton.hpp)
-  /// would need hundreds of steps. The sweeps take no more work than the attempts that have failed. Not where bodies still
-  /// approach each other: without a solution impulses would only grow.
+  /// would need hundreds of steps, or do not converge. The sweeps of the first round take no more work than the attempts that
+  /// have failed, those of the last round four times as much; all rounds together have the cap of one attempt of sweeps. Not where
+  /// bodies still approach each other: without a solution impulses would only grow.
   MOREAU_COLD void solve_failed() {
     constexpr double further = 1e-3;  // of the tolerance
+    constexpr int rounds = 3;
     auto& islands = workspace_.islands;
-    const double most = islands.visits_for_failed() / double(problem_.size());
-    if (!(most >= options_.check_interval)) return;
-    islands.save(impulses_);
-    const int before = report_.sweeps;
-    const double residual = report_.residual;
-    report_ = solver_.attempt(problem_, impulses_, workspace_.sweeps,
-                              int(std::min(most, double(options_.max_sweeps))), options_.accelerate,
-                              further * options_.tolerance);
-    report_.sweeps += before;
-    const bool leads_off = !is_closed(report_);
-    if (leads_off) islands.restore(impulses_);
-    workspace_.first.assign(impulses_.begin(), impulses_.end());
-    if (!leads_off) islands.finish_failed(problem_, impulses_);
-    judge(true);
-    if (report_.residual > std::max(residual, options_.tolerance) || !is_closed(report_))
-      use_sweeps();
+    double most = islands.visits_for_failed() / double(problem_.size());
+    int left = options_.max_sweeps;
+    for (int k = 0; k < rounds && has_failed(); ++k, most *= 2) {
+      const int sweeps = int(std::min(most, double(left)));
+      if (sweeps < options_.check_interval) return;
+      islands.save(impulses_);
+      const int before = report_.sweeps;
+      const double residual = report_.residual;
+      report_ = solver_.attempt(problem_, impulses_, workspace_.sweeps, sweeps, options_.accelerate,
+                                further * options_.tolerance);
+      left -= report_.sweeps;
+      report_.sweeps += before;
+      const bool leads_off = !is_closed(report_);
+      if (leads_off) islands.restore(impulses_);
+      workspace_.first.assign(impulses_.begin(), impulses_.end());
+      if (!leads_off) islands.finish_failed(problem_, impulses_);
+      judge(true);
+      if (report_.residual > std::max(residual, options_.tolerance) || !is_closed(report_))
+        use_sweeps();
+      if (leads_off) return;
+    }
   }
   /// Takes the impulses of the sweeps, Workspace::first: those of islands that are not solved are worse.
   MOREAU_INLINED void use_sweeps() {
