@@ -25,18 +25,6 @@ TEST_CASE("plane, double: polygons under the other pairs") {
 TEST_CASE("plane, double: rounded polygons under the other pairs") {
   matrix::rounded<Sharp>(other_pairs);
 }
-TEST_CASE("plane, double: disks, polygons and stadiums under the other pairs") {
-  matrix::mixtures<Sharp>(other_pairs);
-}
-TEST_CASE("plane, double: polygons with sharp and rounded corners under the other pairs") {
-  matrix::sharp_and_rounded<Sharp>(other_pairs);
-}
 TEST_CASE("plane, double: a shape known by its farthest points under the other pairs") {
   matrix::support_only<S>(other_pairs);
-}
-TEST_CASE("plane, double: concave ballast under the other pairs") {
-  matrix::ballast<Sharp>(other_pairs);
-}
-TEST_CASE("plane, double: dumbbells under the other pairs") {
-  matrix::dumbbells<S>(other_pairs);
 }
