@@ -142,16 +142,14 @@ TEST_CASE_TEMPLATE("bond: a body that is moved by whole cells keeps its bond", S
   pose.position += vectors.col(0) - 2 * vectors.col(1);
   world.set_pose(pair.grains[1], pose);
   world.step(1e-4);
-  vectors.col(1) += vectors.col(0);  // the same lattice, then another one
-  for (const double scale : {1.0, 1.5}) {
-    world.set_cell(typename S::Matrix(scale * vectors));
-    pose.position = 0.1 * Vector::Ones() + 2 * radius * Vector::UnitX() +
-                    scale * (vectors.col(1) + vectors.col(S::dim - 1));
-    world.set_pose(pair.grains[1], pose);
-    for (int k = 0; k < 3; ++k) world.step(1e-4);
-    CHECK(world.bonds().size() == 1);
-    CHECK(world.velocity(pair.grains[1]).norm() < 1e-9);
-  }
+  vectors.col(1) += vectors.col(0);  // the same lattice
+  world.set_cell(vectors);
+  pose.position = 0.1 * Vector::Ones() + 2 * radius * Vector::UnitX() + vectors.col(1) +
+                  vectors.col(S::dim - 1);
+  world.set_pose(pair.grains[1], pose);
+  for (int k = 0; k < 3; ++k) world.step(1e-4);
+  CHECK(world.bonds().size() == 1);
+  CHECK(world.velocity(pair.grains[1]).norm() < 1e-9);
 }
 
 TEST_CASE_TEMPLATE("bond: an axis that a bond reaches across keeps its length", ShapeT,

@@ -34,6 +34,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
+#include "moreau/law/detail/limit_rounding.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 
 namespace moreau {
@@ -140,7 +141,7 @@ class Bonded : public RollingResistance<T> {
   }
   template <class Row>
   static T within(const Row& p) {
-    return (1 - std::sqrt(std::numeric_limits<T>::epsilon())) * p[0];
+    return p[0] * (1 - detail::limit_rounding<T>);
   }
 
   friend struct SerializationAccess;

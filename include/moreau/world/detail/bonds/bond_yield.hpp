@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "moreau/core/twist.hpp"
+#include "moreau/law/detail/limit_rounding.hpp"
 #include "moreau/solve/concepts.hpp"
 
 namespace moreau::detail {
@@ -31,8 +32,7 @@ struct LoadedBond {
   /// p without what is rounding beside the strength of the bond.
   Row load() const {
     Row p = push;
-    const Scalar small = std::sqrt(std::numeric_limits<Scalar>::epsilon());
-    if (p[0] <= small * step * law.strength().tension) p[0] = 0;
+    if (p[0] <= limit_rounding<Scalar> * step * law.strength().tension) p[0] = 0;
     return p;
   }
   /// The velocity between its bodies, less that of its springs.

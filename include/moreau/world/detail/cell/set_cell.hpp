@@ -2,6 +2,7 @@
 // The functions of Simulation that set a periodic cell and how it deforms.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -25,14 +26,17 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::set_periodic(int axis, 
   };
   for (const BodyId wall : assembly_.walls()) require_stays(wall);
   for (const CylinderBody<S>& wall : assembly_.cylinders()) require_stays(wall.body);
-  if constexpr (bonding)
-    if (cell.length()[axis] != detector_.cell().length()[axis])
+  if constexpr (bonding) {
+    const Scalar rounding = 4 * std::numeric_limits<Scalar>::epsilon() *
+                            (cell.length()[axis] + std::abs(cell.lower()[axis]));
+    if (!(std::abs(cell.length()[axis] - detector_.cell().length()[axis]) <= rounding))
       for (Bond<S> bond : bonds()) {
         detail::count_cells(bond, bodies(), detector_.cell());
         require(
             bond.cells[axis] == 0, self, "axis", axis,
             "must stay as it is: a bond reaches across it, and would be stretched by the change");
       }
+  }
   detector_.place_walls(assembly_.bodies().pose);
   detector_.set_cell(cell, lengths(), self);
   assembly_.note_all_placed();
