@@ -80,6 +80,10 @@ struct ContactProblem {
     if (load.empty()) return 0;
     return std::max(double(rounding[body]) / tolerance, least_share * double(load[body]));
   }
+  /// Whether a contact closes so fast that loads alone would take several steps to make it: in an impact.
+  /// @param closing velocity without contact impulses [m/s]
+  /// @param of_load the velocity that loads give to its bodies in the step, see `load` [m/s]
+  static constexpr bool is_impact(double closing, double of_load) { return closing > 3 * of_load; }
 
   std::size_t size() const { return delassus.size(); }  ///< contacts
   /// The law of contact c < size(), which is not checked.

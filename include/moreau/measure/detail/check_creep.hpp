@@ -47,12 +47,11 @@ MOREAU_INLINED inline int longest_way(std::size_t bodies, const auto& pairs, con
   return longest;
 }
 
-/// Whether a contact closed in the step so fast that loads alone would take several steps to: the impulses are those of an
-/// impact, and a residual relative to them says nothing about bodies at rest.
+/// Whether a contact closed in an impact in the step: the impulses are those of the impact, and a residual relative to
+/// them says nothing about bodies at rest.
 template <class Simulation>
 MOREAU_INLINED inline bool has_collided(const Simulation& simulation) {
   if constexpr (requires { simulation.contact_problem(); }) {
-    constexpr double several = 3;
     const auto& problem = simulation.contact_problem();
     const auto& contacts = simulation.contacts();
     if (problem.load.size() != simulation.bodies().size() ||
@@ -62,7 +61,7 @@ MOREAU_INLINED inline bool has_collided(const Simulation& simulation) {
       const auto& point = contacts.points[c];
       const double load = std::max(double(problem.load[point.a]), double(problem.load[point.b]));
       if (contacts.impulses[c][0] > 0 &&
-          -double(problem.delassus.free_velocity(c)[0]) > several * load)
+          problem.is_impact(-double(problem.delassus.free_velocity(c)[0]), load))
         return true;
     }
   }

@@ -4,11 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <span>
 
@@ -17,6 +14,7 @@
 #include "moreau/core/list.hpp"
 #include "moreau/solve/contact_problem.hpp"
 #include "moreau/solve/detail/island_contact.hpp"
+#include "moreau/solve/detail/small_island.hpp"
 #include "moreau/solve/island_newton.hpp"
 #include "moreau/solve/solve_report.hpp"
 
@@ -120,11 +118,11 @@ class IslandSolver {
       else
         one.error = not_attempted;
       const bool is_open = one.is_new && one.defect == 0;
-      if (is_open || meets_tolerance(one) || !is_drawn(one, counted_steps * one.cost, sweeps))
+      if (is_open || meets_tolerance(one) || !one.is_drawn(counted_steps * one.cost, sweeps))
         continue;
       take(problem, one.island);
       find_cost(one);
-      if (one.cost > most_visits || !is_drawn(one, counted_steps * one.cost, sweeps)) continue;
+      if (one.cost > most_visits || !one.is_drawn(counted_steps * one.cost, sweeps)) continue;
       // Of an island without a warm start the pressures shall be even, not only a solution.
       const double defect = start_newton(problem, impulses);
       if (attempt_open(problem, one, impulses, defect)) continue;
@@ -237,19 +235,8 @@ class IslandSolver {
   static constexpr int dim = Operator::Space::dim;
   static constexpr bool bonding = BondingLaw<Law, typename Operator::Space>;
   using Newton = IslandNewton<typename Operator::Space, couples>;
-  struct Small {
-    std::size_t island;
-    double cost;  // of a Newton step, in visits of its contacts by a sweep, at first a lower bound
-    double defect;       // of the warm start, see IslandNewton::start()
-    bool is_new;         // no contact has an impulse in the warm start
-    double error;        // relative [-]
-    double start_error;  // the same of the impulses from which the direct method started, at least
-    bool falls;          // no contact closes, or hardly: hardly_closes()
-    bool collides = false;  // see collides()
-    bool failed = false;    // attempt_evenly()
-    bool squeezed = false;  // add_approach(): there is no solution
-  };
-  static constexpr double not_attempted = std::numeric_limits<double>::infinity();
+  using Small = SmallIsland<typename Operator::Space>;
+  static constexpr double not_attempted = Small::not_attempted;
   /// The warm start of structures at rest has a defect of 1e-8 to 1e-4, that of colliding grains 0.1 to 1. Below the
   /// first bound an island is attempted in every step, up to the second before the sweeps.
   static constexpr double solved_defect = 1e-5, largest_defect = 0.01;
@@ -266,12 +253,7 @@ class IslandSolver {
   static constexpr double least_share = Problem::least_share;
   /// Bodies of an island whose sliding faces get even pressures, at most: of one that is new, of one that collides.
   static constexpr std::size_t most_new = 10, most_colliding = 3;
-  /// Measured work per contact, in visits of it by a sweep: detection, assembly and all else that is no sweep; a
-  /// Newton step of islands that are attempted in every step, as in columns, arches and low walls; a Newton step at
-  /// most (that of a long row of balls takes 11 units); all Newton steps before the sweeps at most.
-  static constexpr double unit = Operator::Space::angular_dim, other_visits = 8 * unit,
-                          cheap_visits = 7.5 * unit, most_visits = 11.1 * unit,
-                          warm_visits = 50 * unit;
+  static constexpr double most_visits = Small::most_visits, warm_visits = Small::warm_visits;
 
   static bool has_bond(const Problem& problem, std::span<const std::uint32_t> contacts) {
     return std::any_of(contacts.begin(), contacts.end(),
@@ -295,35 +277,13 @@ class IslandSolver {
             {least, double(problem.rounding[body]), least_share * double(problem.load[body])});
     return !(closing > least);
   }
-  /// Whether grains collide in the island that take() took: loads alone would take several steps to make contacts close as
-  /// fast, and the warm start is far from a solution. Errors of an impact do not add up from step to step, so that those of
-  /// sweeps are small enough. But not if the direct method takes little, of few bodies, if a light body is among heavy ones,
-  /// or if all faces land flat: of these even small errors can be seen.
-  MOREAU_COLD bool collides(const Problem& problem, const Small& one) const {
-    constexpr double several = 3, far = 0.1, most_ratio = 100, most_tilt = 0.01;
-    if (problem.load.empty() || !(one.defect > far) ||
-        islands_->bodies(one.island) <= most_colliding || newton_.mass_ratio() > most_ratio)
-      return false;
-    const Operator& op = problem.delassus;
-    double load = 0, closing = 0, low = 0, high = 0, tilt = 0;
-    bool has_faces = false;
-    std::array<std::uint32_t, 2> pair{};  // of the contact before
-    for (const std::uint32_t c : islands_->contacts(one.island)) {
-      const double opening = op.free_velocity(c)[0];
-      if (!std::isfinite(opening)) continue;
-      const auto bodies = op.bodies(c);
-      for (const std::uint32_t body : bodies) load = std::max(load, double(problem.load[body]));
-      closing = std::max(closing, -opening);
-      if (bodies == pair)
-        has_faces = true;
-      else
-        low = high = opening;
-      pair = bodies;
-      low = std::min(low, opening);
-      high = std::max(high, opening);
-      tilt = std::max(tilt, high - low);
-    }
-    return closing > several * load && !(has_faces && tilt <= most_tilt * closing);
+  /// Whether grains collide in the island that take() took, and are left to the sweeps: not if the direct method takes little,
+  /// of few bodies, or if a light body is among heavy ones.
+  bool collides(const Problem& problem, const Small& one) const {
+    constexpr double far = 0.1, most_ratio = 100;
+    return !problem.load.empty() && one.defect > far &&
+           islands_->bodies(one.island) > most_colliding && newton_.mass_ratio() <= most_ratio &&
+           do_collide(problem, islands_->contacts(one.island));
   }
   /// Solves an island whose bodies fall together or apart from no impulses, if these are nearer to a solution than others.
   /// Every contact is then at the apex of its cone, where the derivative of the map depends on the direction. Newton's method
@@ -358,21 +318,6 @@ class IslandSolver {
   bool has_failed(const Small& one) const {
     return one.error != not_attempted && one.error > accepted * tolerance_;
   }
-  /// Whether an island is attempted in this step, so that attempts take about as long as the rest of the step on
-  /// average.
-  /// @param visits of an attempt, per contact
-  MOREAU_INLINED static bool is_drawn(const Small& one, double visits, int sweeps) {
-    if (one.is_new || (one.cost <= cheap_visits && !one.collides)) return true;
-    if (one.collides) visits *= 3;  // more than counted_steps, for one impact
-    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
-    constexpr int dropped = 44;  // bits of the defect that rounding may change
-    // Not std::bit_cast, which the C++ library of Debian 12's emscripten lacks.
-    std::uint64_t bits;
-    static_assert(sizeof bits == sizeof one.defect);
-    std::memcpy(&bits, &one.defect, sizeof bits);
-    const std::uint64_t hash = ((bits >> dropped) * golden) >> 32;
-    return std::ldexp(double(hash), -32) * visits < other_visits + sweeps;
-  }
   /// Takes impulses as they are if their defect shows that they are solved. For a column of n bodies the error is up to
   /// about n^2 times the defect, and for a light body under a heavy one the ratio of their masses times as large; ten
   /// times as much is allowed for weakly held bodies. Islands with contacts without friction are refined instead: their
@@ -399,7 +344,7 @@ class IslandSolver {
     if (one.is_new && bodies > most_new) return false;
     if (!one.is_new && one.defect > largest_defect && bodies > most_colliding) return false;
     find_cost(one);
-    if (one.cost > most_visits || !is_drawn(one, warm_visits, sweeps)) return false;
+    if (one.cost > most_visits || !one.is_drawn(warm_visits, sweeps)) return false;
     const double error = newton_.solve_evenly(epsilon, {tolerance_, least_epsilon, most_steps});
     one.failed = !newton_.is_better() ||
                  !(keep(one, impulses, error, defect) || keep_even(one, impulses, error));
@@ -427,7 +372,7 @@ class IslandSolver {
     if (one.defect > largest_defect || accept(one, one.defect)) return;
     find_cost(one);
     if (one.cost > most_visits) return;
-    if (one.defect > solved_defect && !is_drawn(one, warm_visits, 0)) return;
+    if (one.defect > solved_defect && !one.is_drawn(warm_visits, 0)) return;
     solve_directly(one, impulses, std::clamp(one.defect, warm_epsilon, late_epsilon),
                    std::max(2, int(warm_visits / one.cost)), one.defect);
   }
