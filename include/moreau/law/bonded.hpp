@@ -34,7 +34,7 @@
 #include "moreau/core/serialize.hpp"
 #include "moreau/core/space.hpp"
 #include "moreau/core/twist.hpp"
-#include "moreau/law/detail/limit_rounding.hpp"
+#include "moreau/law/limit_rounding.hpp"
 #include "moreau/law/rolling_resistance.hpp"
 
 namespace moreau {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "moreau/core/twist.hpp"
-#include "moreau/law/detail/limit_rounding.hpp"
+#include "moreau/law/limit_rounding.hpp"
 #include "moreau/solve/concepts.hpp"
 
 namespace moreau::detail {
