@@ -45,6 +45,28 @@ TEST_CASE_TEMPLATE("bond: check() tells strengths that forces drown in from bond
 }
 
 TEST_CASE_TEMPLATE(
+    "bond: check() names bonds that are too long, and says nothing of those without a load", X,
+    MOREAU_TYPES((Case<Globe, Rigid>, Case<Circle, Soft>), (Case<Circle, Rigid>))) {
+  using World = Row<typename X::Shape, typename X::LawOf>;
+  using S = typename World::S;
+  World row(3);
+  const auto says = [&](const StepReport& report) {
+    const auto sentences = moreau::check(row.world, report);
+    return std::any_of(sentences.begin(), sentences.end(), [](const std::string& sentence) {
+      return sentence.find("bonds bear") != std::string::npos ||
+             sentence.find("is stretched by") != std::string::npos;
+    });
+  };
+  for (int k = 0; k < 3; ++k) CHECK(!says(row.world.step(1e-4)));
+  // Between two bodies whose motions are prescribed nothing holds.
+  row.world.prescribe_motion(row.grains[1]);
+  row.world.set_velocity(row.grains[1], typename S::Vector(100 * S::Vector::UnitX()));
+  bool said = false;
+  for (int k = 0; k < 3; ++k) said = says(row.world.step(1e-4));
+  CHECK(said);
+}
+
+TEST_CASE_TEMPLATE(
     "bond: check() names bonds that were not made, and strengths in kN; deep overlaps are refused",
     X,
     MOREAU_TYPES((Case<Circle, Rigid>, Case<Globe, Soft>),

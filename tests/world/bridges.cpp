@@ -16,6 +16,7 @@
 #include "moreau/law/compliant.hpp"
 #include "moreau/law/frictionless.hpp"
 #include "moreau/law/rolling_resistance.hpp"
+#include "moreau/measure/check.hpp"
 #include "moreau/measure/energy_balance.hpp"
 #include "moreau/shape/ball.hpp"
 #include "moreau/shape/polygon.hpp"
@@ -394,4 +395,18 @@ TEST_CASE_TEMPLATE(
   CHECK(world.velocity(far).isZero(0));
   CHECK(world.velocity(near)[0] > 0);
   CHECK(world.velocity(other)[0] > 0);
+}
+
+TEST_CASE("bridge: check() names a volume that is no m^3") {
+  using Law = Bridged<CapillaryBridge<>, SignoriniCoulomb<>>;
+  for (const double volume : {1e-12, 1e-9, 1.0}) {
+    const Law law(CapillaryBridge<>(volume), SignoriniCoulomb<>(0.4));
+    Simulation<Ball<>, Law> world(2 * radius, Materials<Law>(1, law));
+    world.add_grain(world.add_shape(Ball<>(radius)), Pose<Space<3>>(), 1000);
+    const auto sentences = check(world, world.step(h));
+    const bool says = std::any_of(sentences.begin(), sentences.end(), [](const std::string& one) {
+      return one.find("bridges reach") != std::string::npos;
+    });
+    CHECK(says == (volume > 1e-11));
+  }
 }

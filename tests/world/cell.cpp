@@ -341,6 +341,11 @@ TEST_CASE("what does not fit into a deforming cell is refused") {
           "stress");
   control.stress(0, 0) = 0;
   one.control_cell(control);
+  control.stress(1, 1) = -1;
+  refuses([&] { one.control_cell(control); },
+          "Simulation::control_cell: stress = (0, 0, 0, -1) must pull no axis: compression is "
+          "positive, and the law has no attraction");
+  control.stress(1, 1) = 1;
   control.mass(0, 1) = 1;
   control.stress(0, 1) = control.stress(1, 0) = 2;
   one.control_cell(control);

@@ -60,7 +60,9 @@ class SentencesOnce {
 ///          - bodies at rest on each other, up to 200, whose velocities the direct method does not judge (a law with a solve() of its
 ///            own, islands = false), and which can creep by more than 1 % of the grain size per second
 ///          - bonds: their forces are known to less than three digits (StepReport::bond_error); the last call of
-///            bond_touching() made none, and there is none; their tension does not carry the weight of a bonded grain (kN)
+///            bond_touching() made none, and there is none; their tension does not carry the weight of a bonded grain (kN);
+///            one is longer than half the grain size
+///          - bridges that reach farther than half the grain size (mm^3)
 ///          - compliant contacts: the residual is not small against relative_compliance, so that the
 ///            forces are not accurate to 10 %
 ///          - numbers that look like other units. With a gravity between 9 and 11 m/s^2: a density below
@@ -106,6 +108,8 @@ template <class Simulation>
   detail::check_creep(found, simulation, report);
   if constexpr (requires { simulation.missed_gap(); })
     detail::check_bonds(found, simulation, report);
+  if constexpr (requires { simulation.materials().laws()[0].reach(); })
+    detail::check_bridges(found, simulation);
   if constexpr (requires { simulation.materials().laws()[0].normal_compliance(); })
     detail::check_compliance(found, report);
   if (!is_first && detail::is_idle(simulation, report))

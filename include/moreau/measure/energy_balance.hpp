@@ -9,7 +9,7 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-// Each term is measured independently. The imbalance is the part of the kinetic energy that the
+// `impacts` is what is left of the work of all contacts; each other term is measured independently. The imbalance is the part of the kinetic energy that the
 // other terms do not explain. Its size depends on the integrator, the bodies and the contact law:
 //
 //   - MoreauJean(1/2) in the plane, or with bodies of equal principal moments of inertia (balls,
@@ -51,13 +51,13 @@ struct EnergyTerms {
                        ///< along which they have a mass; of the torques of set_torque() [J]
   double drives = 0;   ///< work of the drives of bodies whose motion is prescribed, or prescribed
                        ///< along an axis [J]
-  double impacts = 0;  ///< energy dissipated by normal impulses (inelastic impacts), > 0 for a loss
-                       ///< [J]
+  double impacts = 0;  ///< energy dissipated by contacts that is no friction, rolling or fracture:
+                       ///< in impacts, and by implicit Euler of springs; > 0 for a loss, < 0 where
+                       ///< contacts gave energy that nobody put in [J]
   double friction = 0;  ///< energy dissipated by tangential impulses, > 0 for a loss [J]
   double rolling = 0;  ///< energy dissipated by rolling and twisting resistance, > 0 for a loss [J]
   double fracture = 0;  ///< energy dissipated by bonds that yield and break, with that which their
-                        ///< springs release and that which implicit Euler takes from the springs of
-                        ///< bonds that hold, > 0 for a loss [J]
+                        ///< springs lose meanwhile and release, >= 0 [J]
   double elastic = 0;   ///< energy taken by the springs of compliant contacts, < 0 if they gave
                         ///< energy back [J]
   double correction = 0;  ///< work of gravity and forces along the displacements of the overlap

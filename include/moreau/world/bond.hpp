@@ -41,7 +41,7 @@ struct Bond {
   /// Velocity of b against a at the bond in the last step: errors and their correction, in F [m/s].
   Vector opening = Vector::Zero();
   Angular turning = Angular::Zero();  ///< the same of the rotation [rad/s]
-  double dissipated = 0;              ///< energy that it has dissipated [J]
+  double dissipated = 0;              ///< energy that its yielding took [J]
   double elastic = 0;                 ///< energy of its springs; 0 without [J]
   Scalar strength_left = 1;           ///< s: share of its strength that is left [-]
   bool is_new = true;                 ///< no step has ended since it was made
@@ -57,7 +57,7 @@ struct Breakage {
   double time = 0;    ///< at the end of the step in which it broke [s]
   BodyId a;           ///< the first body that it held
   BodyId b;           ///< the second one
-  double energy = 0;  ///< that it has dissipated, with that which its springs released [J]
+  double energy = 0;  ///< that its yielding took and its springs released, >= 0 [J]
 
   auto serialized_members() { return std::tie(time, a, b, energy); }  ///< see core/serialize.hpp
 };

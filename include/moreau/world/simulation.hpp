@@ -203,8 +203,8 @@ class Simulation : public BodyControl<ShapeT> {
   /// Sets how the cell of set_cell() deforms, from the next step on. From then on velocities of bodies are relative
   /// to the cell: velocity(body) + cell_motion().rate() (x - corner) is that in the world. No velocity changes by the call.
   /// step() throws std::invalid_argument if the cell becomes too small for the grains.
-  /// @throws std::invalid_argument without such a cell, for numbers that are not finite, a mass or damping < 0, or a
-  ///         stress of a component without a mass
+  /// @throws std::invalid_argument without such a cell, for numbers that are not finite, a mass or damping < 0, a stress
+  ///         of a component without a mass, or one that pulls an axis (< 0) under a law without attraction
   void control_cell(const CellControl<S>& control) requires SetValuedLaw<Law, SpaceOf<ShapeT>>;
   const CellMotion<S>& cell_motion() const { return cell_motion_; }  ///< of the cell of set_cell()
   const PeriodicCell<S>& cell() const { return detector_.cell(); }   ///< open unless set

@@ -44,8 +44,7 @@ struct StepReport {
   double dissipation = 0;
   double friction = 0;  ///< part of it: by tangential impulses [J]
   double rolling = 0;   ///< part of it: by couples of rolling and twisting [J]
-  /// Part of it: by bonds that yield and break, with the energy that their springs release, and what implicit Euler takes from the
-  /// springs of bonds that hold [J].
+  /// Part of it, >= 0: by bonds that yield and break, with the energy that their springs lose meanwhile and release [J].
   double fracture = 0;
   std::size_t bonds = 0;         ///< bonds that are left after the step
   std::size_t broken_bonds = 0;  ///< bonds that broke in the step

@@ -47,14 +47,41 @@ template <class Simulation>
   return least;
 }
 
+/// Says which bond is so long that it is none in the sense of a user: soft springs, a fracture energy in another unit, or
+/// two bodies whose motions are prescribed.
+template <class Simulation>
+[[gnu::cold]] void check_stretch(Findings& found, const Simulation& simulation) {
+  using Vector = typename Simulation::S::Vector;
+  const auto& bodies = simulation.bodies();
+  const double size = double(simulation.grain_size());
+  double most = 0;
+  BodyId a, b;
+  for (const auto& bond : simulation.bonds()) {
+    const auto& pose_a = bodies.pose[bond.a.index()];
+    const auto& pose_b = bodies.pose[bond.b.index()];
+    const Vector way = pose_b.position + pose_b.rotation * bond.anchor_b - pose_a.position -
+                       pose_a.rotation * bond.anchor_a + simulation.cell().shift(bond.cells);
+    if (double(way.norm()) > most) most = double(way.norm()), a = bond.a, b = bond.b;
+  }
+  if (!(most > size / 2)) return;
+  found.say(
+      "the bond of the bodies % and % is stretched by % m, % times the grain size. Its springs are "
+      "too soft, its fracture energy too large (in J for each bond, not J/m^2), or both bodies "
+      "have "
+      "a prescribed motion",
+      {double(a.index()), double(b.index()), most, most / size});
+}
+
 /// @param simulation under a law with bonds
 template <class Simulation>
 [[gnu::cold]] void check_bonds(Findings& found, const Simulation& simulation,
                                const StepReport& report) {
   if (report.bond_error > 1e-3 && report.solve.residual < report.bond_error) {
-    // Bonds that bear next to nothing, as those of bodies that fall freely, may.
+    // Bonds that bear next to nothing may, as those of bodies that fall freely or, in double precision, without gravity.
+    constexpr double rounding = 1e-13;
     const double error = report.bond_load * report.bond_error * least_tension(simulation);  // [N]
-    if (error > 1e-3 * least_bonded_weight(simulation))
+    const double weight = least_bonded_weight(simulation);
+    if (error > 1e-3 * weight && (weight > 0 || report.bond_load > rounding))
       found.say(
           "bonds bear % of their strength on average: their forces have the rounding of the "
           "strength and are known only to about % of themselves. Use double precision, or a "
@@ -90,6 +117,23 @@ template <class Simulation>
         "a bond of % N (BondStrength::tension) cannot carry the lightest grain that was bonded, "
         "which weighs % N. If it was meant as kN, write tension = %",
         {tension, weight, 1000 * tension});
+  check_stretch(found, simulation);
+}
+
+/// Says which bridges reach so far that their volume has another unit.
+/// @param simulation under a law with bridges
+template <class Simulation>
+[[gnu::cold]] void check_bridges(Findings& found, const Simulation& simulation) {
+  const double size = double(simulation.grain_size());
+  double reach = 0;
+  for (const auto& law : simulation.materials().laws())
+    reach = std::max(reach, double(law.reach()));
+  if (reach > size / 2)
+    found.say(
+        "bridges reach % m before they break, % times the grain size: the volume of a capillary "
+        "bridge is in m^3 (1 mm^3 is 1e-9) and at most a thousandth of the cube of a radius, the "
+        "range of a linear one in m",
+        {reach, reach / size});
 }
 
 }  // namespace moreau::detail

@@ -176,6 +176,7 @@ class ContactSprings {
                SharedBodies* shared = nullptr) {
     Energy energy;
     energies_.resize(impulses.size());
+    if constexpr (BondingLaw<Law, S>) compressions_.resize(impulses.size());
     double sums[] = {0, 0};
     auto& [map, norm] = sums;
     const auto scale = static_cast<Scalar>(mean_diagonal(problem.delassus, shared));
@@ -187,7 +188,10 @@ class ContactSprings {
       if (bonded) r[0] -= pulls[c];
       const Row stretch = compliance_[c].cwiseProduct(r);
       energies_[c] = Energy::of(r.cwiseProduct(stretch));
-      if (bonded) energies_[c] = {energies_[c].total(), 0, 0};
+      if (bonded) {
+        compressions_[c] = r[0] > 0 ? energies_[c].normal : 0;
+        energies_[c] = {energies_[c].total(), 0, 0};
+      }
       energy.add(energies_[c]);
       report.max_elastic_overlap =
           std::max(report.max_elastic_overlap, double(stretch[0] * context.step));
@@ -220,14 +224,17 @@ class ContactSprings {
   }
 
   double energy_after(std::size_t c) const { return energies_[c].total(); }  ///< of measure() [J]
-  /// Removes the springs of a bond that broke in the step: their energy is dissipated.
-  void release(std::size_t c, StepReport& report) {
-    const double energy = energies_[c].total();
-    energies_[c] = {};
+  /// Removes the springs of a bond that broke in the step: their energy is dissipated, but that of a compression, which
+  /// the contact of the pair takes over.
+  /// @returns what is dissipated [J]
+  double release(std::size_t c, StepReport& report) {
+    const double energy = energies_[c].total() - compressions_[c];
+    energies_[c] = {compressions_[c], 0, 0};
     energy_.normal -= energy;
     report.elastic_energy -= energy;
     report.elastic_work -= energy;
     report.dissipation += energy;
+    return energy;
   }
   /// Removes the springs of contacts with removed grains: their energy leaves with the grains.
   /// @param is_gone function: index of a contact -> whether it is removed
@@ -319,6 +326,7 @@ class ContactSprings {
   Scalar ahead_ = 0;              // its part before detection, a [s]
   Scalar now_ = 0, then_ = 0;  // a of this step and of the step before over h; 0 if they are equal
   List<Energy> energies_;      // one per contact, after the step before
+  List<double> compressions_;  // one per contact: the part of it by a bond that is pressed [J]
   Energy energy_;              // their sum
 };
 

@@ -326,8 +326,9 @@ class BondList {
       broken_[i] = yields_[i].loss != 0 && !(bonds_[i].strength_left > yields_[i].loss);
     });
   }
-  /// Applies the yielding of the step to the bonds. Counts the energy that they dissipated as StepReport::fracture in place of friction
-  /// and rolling, and removes the bonds that broke.
+  /// Applies the yielding of the step to the bonds, and removes those that broke. StepReport::fracture is what bonds took that
+  /// yielded, and what springs release. What other bonds take, in impacts and by the damping of their springs, is
+  /// neither friction nor rolling: of several impulses at once each alone can do work of either sign.
   /// @param losses  function: contact c -> its ContactLosses
   /// @param springs ContactSprings or NoSprings
   void end_step(ContactsOf<Law, S>& contacts, const auto& losses, auto& springs,
@@ -342,11 +343,12 @@ class BondList {
       bond.turning = yields_[i].turning;
       const ContactLosses one = losses(c);
       double taken = one.dissipation + bond.elastic;
+      if constexpr (CompliantLaw<Law, S>) taken -= springs.energy_after(c);
+      taken = yields_[i].loss > 0 ? std::max(0., taken) : 0;
       if constexpr (CompliantLaw<Law, S>) {
-        bond.elastic = broken_[i] ? 0 : springs.energy_after(c);
-        if (broken_[i]) springs.release(c, report);
+        if (broken_[i]) taken += springs.release(c, report);
+        bond.elastic = springs.energy_after(c);
       }
-      taken -= bond.elastic;
       report.friction -= one.friction;
       report.rolling -= one.rolling;
       report.fracture += taken;

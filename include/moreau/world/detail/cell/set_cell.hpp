@@ -73,6 +73,10 @@ void Simulation<ShapeT, Law, Integrator, Broad, Solver>::control_cell(
   constexpr const char* self = "Simulation::control_cell";
   require(cell().is_lattice(), self, "cell", "(none)", "must be one of set_cell()");
   control.check(self);
+  if constexpr (!AttractiveLaw<Law, S>)
+    for (int k = 0; k < S::dim; ++k)
+      require(control.mass(k, k) == 0 || control.stress(k, k) >= 0, self, "stress", control.stress,
+              "must pull no axis: compression is positive, and the law has no attraction");
   cell_motion_.set_control(control);
 }
 
