@@ -101,7 +101,8 @@ std::size_t Simulation<ShapeT, Law, Integrator, Broad, Solver>::bond(
     const auto is_held = [&](BodyId body) { return bodies().is_prescribed(body.index()); };
     require(!is_held(a) || !is_held(b), self, "b", b,
             "must be free to move, or a must be: the motion of both is prescribed");
-    require(false, self, "b", b, "must be within the margin of a");
+    require(false, self, "b", b,
+            "must be within the margin of a: that is tolerances().margin x grain_size()");
   }
   return made;
 }
