@@ -9,8 +9,9 @@
 //   EnergyBalance<S> energy(world);
 //   for (...) energy.add(world, world.step(h), h);
 //
-// `impacts` is what is left of the work of all contacts; each other term is measured independently. The imbalance is the part of the kinetic energy that the
-// other terms do not explain. Its size depends on the integrator, the bodies and the contact law:
+// `impacts` is what is left of the work of all contacts; each other term is measured independently. The
+// imbalance is the part of the kinetic energy that the other terms do not explain. Its size depends on the
+// integrator, the bodies and the contact law:
 //
 //   - MoreauJean(1/2) in the plane, or with bodies of equal principal moments of inertia (balls,
 //     cubes): rounding errors.

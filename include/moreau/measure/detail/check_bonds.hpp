@@ -9,6 +9,7 @@
 
 #include "moreau/core/ids.hpp"
 #include "moreau/measure/detail/check_report.hpp"
+#include "moreau/world/bond.hpp"
 #include "moreau/world/step_report.hpp"
 
 namespace moreau::detail {
@@ -51,24 +52,19 @@ template <class Simulation>
 /// two bodies whose motions are prescribed.
 template <class Simulation>
 [[gnu::cold]] void check_stretch(Findings& found, const Simulation& simulation) {
-  using Vector = typename Simulation::S::Vector;
-  const auto& bodies = simulation.bodies();
   const double size = double(simulation.grain_size());
   double most = 0;
   BodyId a, b;
   for (const auto& bond : simulation.bonds()) {
-    const auto& pose_a = bodies.pose[bond.a.index()];
-    const auto& pose_b = bodies.pose[bond.b.index()];
-    const Vector way = pose_b.position + pose_b.rotation * bond.anchor_b - pose_a.position -
-                       pose_a.rotation * bond.anchor_a + simulation.cell().shift(bond.cells);
-    if (double(way.norm()) > most) most = double(way.norm()), a = bond.a, b = bond.b;
+    const auto at = place_of(bond, simulation.bodies(), simulation.cell().shift(bond.cells));
+    const double stretch = double(at.stretch.norm());
+    if (stretch > most) most = stretch, a = bond.a, b = bond.b;
   }
   if (!(most > size / 2)) return;
   found.say(
       "the bond of the bodies % and % is stretched by % m, % times the grain size. Its springs are "
-      "too soft, its fracture energy too large (in J for each bond, not J/m^2), or both bodies "
-      "have "
-      "a prescribed motion",
+      "too soft, its fracture energy too large (in J for each bond, not J/m^2), or the motion of "
+      "both is prescribed",
       {double(a.index()), double(b.index()), most, most / size});
 }
 
